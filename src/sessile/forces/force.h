@@ -1,0 +1,23 @@
+#pragma once
+
+#include <concepts>
+#include <variant>
+
+#include "sessile/forces/surface_feature.h"
+
+namespace sessile {
+
+/// What a member of Force offers: declared parameters, an acceleration, and the macroscopic tension that bounds dt.
+template <class T>
+concept ForceModel = Named<T> && requires(const T& model, const ForceContext& context) {
+  model.add_acceleration(context);
+  { model.tension(1.0, 1.0) } -> std::same_as<double>;
+  { T::uses_normals } -> std::convertible_to<bool>;
+};
+
+static_assert(ForceModel<SurfaceFeature>);
+
+/// Every force a scene can list under "forces".
+using Force = std::variant<SurfaceFeature>;
+
+}  // namespace sessile

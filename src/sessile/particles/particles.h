@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "sessile/core/array.h"
+
+namespace sessile {
+
+/// The fluid's particles as a structure of arrays. Holds what must survive from step to step, and nothing else:
+/// what a step derives (density, normals, accelerations) belongs to its Scratch.
+struct Particles {
+  Array3 position;       ///< [m]
+  Array3 velocity;       ///< [m/s]
+  Array<Real> mass;      ///< in units of rho0 dx^3, so that no product leaves float's range at any scale
+  Array<Real> pressure;  ///< p / rho0 [m^2/s^2]; the warm start of the next solve
+  Array<std::int64_t> id;  ///< 0, 1, 2 ... in order of appearance; never reused
+
+  /// Calls f(array) for each array above: the only place that lists them all.
+  template <class F>
+  void for_each_field(F&& f) {
+    f(position.x);
+    f(position.y);
+    f(position.z);
+    f(velocity.x);
+    f(velocity.y);
+    f(velocity.z);
+    f(mass);
+    f(pressure);
+    f(id);
+  }
+
+  std::size_t size() const { return id.size(); }
+  void resize(std::size_t n);
+
+  /// Appends one particle at rest pressure.
+  void add(const Vec3r& position, const Vec3r& velocity, Real mass, std::int64_t id);
+
+  /// Puts particle order[k] at place k, for all k. `order` may name fewer particles than there are: the others go.
+  void reorder(std::span<const std::int32_t> order);
+
+ private:
+  Array<std::byte> reorder_scratch_;
+};
+
+}  // namespace sessile

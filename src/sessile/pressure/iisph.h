@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string_view>
+#include <tuple>
+
+#include "sessile/core/fields.h"
+
+namespace sessile {
+
+/// Implicit incompressible SPH (Ihmsen et al. 2014; the paper's eqs. 24-35 and Algorithm 1).
+struct Iisph {
+  double error = 1e-4;
+  int min_iterations = 2;
+  int max_iterations = 200;
+  double relaxation = 0.5;
+  double warm_start = 0.5;
+
+  static constexpr std::string_view name = "iisph";
+  static constexpr std::string_view summary = "implicit incompressible SPH, relaxed Jacobi (eqs. 24-35)";
+  static constexpr auto fields() {
+    using T = Iisph;
+    return std::tuple{
+        field(&T::error, "error", "", positive, "average compression over rest density at which a solve ends"),
+        field(&T::min_iterations, "min_iterations", "", at_least(1), "fewest iterations of a solve"),
+        field(&T::max_iterations, "max_iterations", "", at_least(1),
+              "most iterations of a solve; a solve that ends here is counted and reported"),
+        field(&T::relaxation, "relaxation", "", between(0.01, 1), "omega, weight of the new pressure in an iteration"),
+        field(&T::warm_start, "warm_start", "", between(0, 1), "share of the last step's pressure a solve starts from"),
+    };
+  }
+};
+
+}  // namespace sessile

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "sessile/core/vec.h"
+#include "sessile/scene/scene.h"
+
+namespace sessile {
+
+/// Places [m] of the particles that fill a body: a cubic lattice at distance `spacing` in the body's own axes, centred
+/// on it, of the points inside the shape, jittered as the body says. A box of size L holds round(L/spacing) per axis.
+/// Throws SceneError when the shape holds no point, FileError or SceneError when a mesh cannot be used.
+std::vector<Vec3d> fill(const Body& body, double spacing);
+
+/// Places [m] of one layer of an emitter: a square lattice in the shape's plane, centred on it.
+std::vector<Vec3d> layer(const Emitter& emitter, double spacing);
+
+/// Places [m] of a solid's boundary particles: its surface at distance solid.spacing (or `spacing`), in
+/// solid.layers layers that grow into the solid.
+std::vector<Vec3d> sample_surface(const Solid& solid, double spacing);
+
+/// A solid as a body of space: what is inside, and what has passed through.
+class SolidGeometry {
+ public:
+  explicit SolidGeometry(const Solid& solid);
+  ~SolidGeometry();
+  SolidGeometry(SolidGeometry&&) noexcept;
+  SolidGeometry& operator=(SolidGeometry&&) noexcept;
+
+  /// Whether the point lies inside the solid's matter (for a container: outside its hollow). Never true for a plate.
+  bool contains(const Vec3d& point) const;
+
+  /// Whether the way from a to b passes the solid's surface into or through it (for a plate: crosses the rectangle).
+  bool crossed(const Vec3d& a, const Vec3d& b) const;
+
+  /// A box around the solid's surface: a particle that moves outside it cannot have crossed (mesh queries are skipped).
+  Vec3d lower() const;
+  Vec3d upper() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sessile

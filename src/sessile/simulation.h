@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "sessile/core/array.h"
+#include "sessile/core/space.h"
+#include "sessile/neighbors/neighbors.h"
+#include "sessile/particles/particles.h"
+#include "sessile/scene/scene.h"
+#include "sessile/walls/walls.h"
+
+namespace sessile {
+
+/// Wall time [s] spent in each stage since the start.
+struct StageTimes {
+  double neighbors = 0, density = 0, forces = 0, pressure = 0, integration = 0;
+};
+
+/// What the last step did.
+struct StepReport {
+  double dt = 0;                    ///< [s]
+  std::string_view bound;           ///< what set dt: cfl, force, viscosity, capillary, growth, dt_max, dt_min, fixed
+  int iterations = 0;               ///< of the pressure solve
+  bool converged = true;            ///< whether the solve reached its error
+  double predicted_error = 0;       ///< average compression over rest density that the solver predicts
+  double predicted_error_max = 0;   ///< the greatest one
+};
+
+/// Counts since the start.
+struct Totals {
+  std::int64_t steps = 0;
+  std::int64_t iterations = 0;
+  std::int64_t unconverged_solves = 0;
+  std::int64_t dt_min_overrules = 0;  ///< steps in which dt_min was larger than a bound
+  std::int64_t emitted = 0;           ///< particles let in by emitters
+  std::int64_t waits = 0;             ///< layers that fell due while their place was taken
+  std::int64_t out = 0;               ///< particles that left an open domain
+  std::int64_t lost = 0;              ///< passages through a solid; a position that is not finite ends the run
+};
+
+/// A liquid in motion: the state of a run and the paper's step.
+///
+/// After construction and after every step, neighbours, densities and normals belong to the current positions, so that
+/// whoever measures or writes reads them as they are.
+class Simulation {
+ public:
+  /// Fills bodies, samples solids, and looks for what cannot be run.
+  /// Throws SceneError (overlaps, fluid inside a solid, nothing to simulate, not enough memory), FileError (meshes).
+  explicit Simulation(Scene scene);
+
+  /// One step of Algorithm 1. Throws RunError when a particle's position is no longer finite.
+  void step();
+
+  const Scene& scene() const { return scene_; }
+  double time() const { return time_; }  ///< [s]
+  bool finished() const;                 ///< whether time() has reached the scene's end
+  const Particles& particles() const { return particles_; }
+  const Walls& walls() const { return walls_; }
+  const NeighborList& fluid_neighbors() const { return fluid_neighbors_; }  ///< fluid around each fluid particle
+  const NeighborList& wall_neighbors() const { return wall_neighbors_; }    ///< wall samples around each fluid particle
+  const Array<Real>& density() const { return density_; }                   ///< rho / rho0
+  const Array3& normal() const { return normal_; }  ///< n_i of (19), dimensionless
+  Space space() const { return space_; }            ///< displacements, across periodic faces too
+
+  const StepReport& last_step() const { return last_step_; }
+  const Totals& totals() const { return totals_; }
+  const StageTimes& stage_times() const { return stage_times_; }
+  std::size_t bytes() const;  ///< memory of particles, walls, neighbours and scratch
+
+  /// Names of the accelerations that acceleration() can give: "gravity", "viscosity", "pressure", and each force's.
+  std::vector<std::string> acceleration_names() const;
+
+  /// One force's acceleration [m/s^2] of every particle at the current positions and velocities.
+  Array3 acceleration(std::string_view name) const;
+
+ private:
+};
+
+}  // namespace sessile
