@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -76,6 +77,19 @@ class Simulation {
   Array3 acceleration(std::string_view name) const;
 
  private:
+  void look_around();
+
+  Scene scene_;
+  Space space_;
+  double time_ = 0;
+  Particles particles_;
+  Walls walls_;
+  NeighborList fluid_neighbors_, wall_neighbors_;
+  Array<Real> density_;
+  Array3 normal_;
+  StepReport last_step_;
+  Totals totals_;
+  StageTimes stage_times_;
 };
 
 }  // namespace sessile

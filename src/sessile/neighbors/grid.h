@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sessile/core/array.h"
+
+namespace sessile {
+
+/// Contiguous places [begin, end) in the order of a grid.
+struct PlaceRange {
+  std::int32_t begin = 0;
+  std::int32_t end = 0;
+};
+
+/// Cells of one axis: where they start, how long they are, and whether they close to a ring.
+struct GridAxis {
+  double origin = 0;        ///< [m]
+  double cell = 1;          ///< length of a cell [m], a hair over the support radius
+  std::int64_t ring = 0;    ///< number of cells around a periodic axis, or 0
+};
+
+/// How space is cut into cells no shorter than the support radius. Unbounded; periodic along some axes.
+struct GridShape {
+  std::array<GridAxis, 3> axes{};
+
+  /// Cells for a support radius; along a periodic axis (period > 0) a whole number of them fills the period.
+  static GridShape make(double support_radius, const Vec3d& origin, const Vec3d& period);
+
+  /// Cell that holds the point, per axis.
+  std::array<std::int64_t, 3> cell_of(const Vec3r& point) const;
+};
+
+/// The cells that hold points of one set, and which. Cells are sorted row by row (x runs fastest), so that the three
+/// cells along x around a point are one contiguous range. Empty space costs nothing, however far the points stray.
+class Grid {
+ public:
+  /// Finds the order that sorts the points by cell; equal cells keep their order. Throws RunError when the points lie
+  /// so scattered that their cells cannot be numbered (more than 2^63 of them after gaps are closed up).
+  void build(const Array3& points, const GridShape& shape);
+
+  /// order()[k] is the point at place k. Callers reorder their points by it, and then places are indices.
+  std::span<const std::int32_t> order() const { return order_; }
+
+  /// Ranges of places in the 27 cells around a cell; at most 18 of them. Returns how many.
+  int around(const std::array<std::int64_t, 3>& cell, std::span<PlaceRange, 18> ranges) const;
+
+  const GridShape& shape() const { return shape_; }
+  std::size_t cell_count() const { return keys_.size(); }
+  std::size_t bytes() const;
+
+ private:
+  /// Numbers the occupied stretches of one axis; far gaps are closed up when the plain numbers would not fit a key.
+  struct AxisNumbers {
+    std::int64_t first = 0;               // cell that gets number 1
+    std::int64_t count = 0;               // numbers in use, 1 ... count
+    std::vector<std::int64_t> occupied;   // only when gaps are closed up: the occupied cells, ascending
+    std::vector<std::int64_t> numbers;    // and their numbers
+    int bits = 0;
+
+    std::int64_t number(std::int64_t cell) const;  // 0 when the cell has none
+  };
+
+  std::int32_t place_of(std::uint64_t key) const;
+
+  GridShape shape_;
+  std::array<AxisNumbers, 3> axes_;
+  std::vector<std::uint64_t> keys_;   // occupied cells, ascending
+  std::vector<std::int32_t> begins_;  // first place of each, and the end
+  Array<std::int32_t> order_;
+};
+
+}  // namespace sessile
