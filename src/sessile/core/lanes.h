@@ -101,20 +101,33 @@ inline IndexLanes load_indices(const std::int32_t* list) {
   }
 }
 
-/// Writes the indices first + k of the lanes k where the mask holds to `list`, in order; returns how many. May write a
-/// whole pack. The one place with an intrinsic of its own: xsimd 8 has no compressing store.
-inline int store_where(std::int32_t* list, std::int32_t first, const LaneMask& mask) {
+/// The numbers data[j] of the lanes' indices. xsimd 8.1 picks its element-by-element gather even where the processor has
+/// one (4 times slower in a pass), so the instruction is named here.
+inline Lanes gather(const Real* data, const IndexLanes& j) {
+#if defined(SESSILE_DOUBLE)
+  return Lanes::gather(data, j);
+#elif defined(__AVX512F__)
+  return _mm512_i32gather_ps(j, data, sizeof(Real));
+#elif defined(__AVX2__)
+  return _mm256_i32gather_ps(data, j, sizeof(Real));
+#else
+  return Lanes::gather(data, j);
+#endif
+}
+
+/// Writes those of the lane_count numbers from `from` on whose lane is set in the mask to `to`, in order; returns how many.
+/// May write a whole pack. xsimd 8.1 has no compressing store.
+inline int store_where(const LaneMask& mask, const std::int32_t* from, std::int32_t* to) {
 #if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
   const __mmask16 bits = mask;
-  const __m512i numbers = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  _mm512_storeu_si512(list, _mm512_maskz_compress_epi32(bits, _mm512_add_epi32(_mm512_set1_epi32(first), numbers)));
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(bits, _mm512_loadu_si512(from)));
   return __builtin_popcount(bits);
 #else
   alignas(64) bool holds[lane_count];
   mask.store_aligned(holds);
   int count = 0;
   for (int k = 0; k < lane_count; ++k) {
-    list[count] = first + k;
+    to[count] = from[k];
     count += holds[k];
   }
   return count;
@@ -126,7 +139,7 @@ struct View1 {
   const Real* data = nullptr;
 
   Real operator[](int i) const { return data[i]; }
-  Lanes operator[](const IndexLanes& j) const { return Lanes::gather(data, j); }
+  Lanes operator[](const IndexLanes& j) const { return gather(data, j); }
 };
 
 /// Read-only vectors, one per particle.
@@ -137,7 +150,7 @@ struct View3 {
 
   Vec3r operator[](int i) const { return {x[i], y[i], z[i]}; }
   Vec3<Lanes> operator[](const IndexLanes& j) const {
-    return {Lanes::gather(x, j), Lanes::gather(y, j), Lanes::gather(z, j)};
+    return {gather(x, j), gather(y, j), gather(z, j)};
   }
 };
 

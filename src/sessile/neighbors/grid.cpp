@@ -27,22 +27,24 @@ int bits_for(std::int64_t count) { return static_cast<int>(std::bit_width(static
 
 GridShape GridShape::make(double support_radius, const Vec3d& origin, const Vec3d& period) {
   const auto axis = [&](double start, double length) {
-    GridAxis made{start, support_radius * cell_margin, 0};
+    GridAxis made{start, support_radius * cell_margin, 0, 0};
     if (length > 0) {
       made.ring = static_cast<std::int64_t>(length / made.cell);
       made.cell = length / static_cast<double>(made.ring);
     }
+    made.inverse_cell = 1 / made.cell;
     return made;
   };
   return {{axis(origin.x, period.x), axis(origin.y, period.y), axis(origin.z, period.z)}};
 }
 
 std::array<std::int64_t, 3> GridShape::cell_of(const Vec3r& point) const {
-  const auto cell = [](const GridAxis& axis, Real x) {
-    const double place = std::floor((static_cast<double>(x) - axis.origin) / axis.cell);
-    return wrap(static_cast<std::int64_t>(std::clamp(place, -farthest_cell, farthest_cell)), axis.ring);
+  const auto along = [](const GridAxis& axis, Real x) {
+    const double place = std::floor((static_cast<double>(x) - axis.origin) * axis.inverse_cell);
+    const auto cell = static_cast<std::int64_t>(std::clamp(place, -farthest_cell, farthest_cell));
+    return axis.ring == 0 ? cell : wrap(cell, axis.ring);
   };
-  return {cell(axes[0], point.x), cell(axes[1], point.y), cell(axes[2], point.z)};
+  return {along(axes[0], point.x), along(axes[1], point.y), along(axes[2], point.z)};
 }
 
 std::int64_t Grid::AxisNumbers::number_at_or_after(std::int64_t cell) const {

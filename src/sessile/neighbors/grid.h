@@ -21,6 +21,7 @@ struct PlaceRange {
 struct GridAxis {
   double origin = 0;        ///< [m]
   double cell = 1;          ///< length of a cell [m], a hair over the support radius
+  double inverse_cell = 1;  ///< [1/m]
   std::int64_t ring = 0;    ///< number of cells around a periodic axis, or 0
 };
 

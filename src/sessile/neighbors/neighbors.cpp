@@ -8,23 +8,61 @@
 namespace sessile {
 namespace {
 
-/// Appends to `list` the places in [range) closer than the radius to the point `self`; returns how many. Candidates of
-/// a cell row are contiguous, so they load as packs.
-int close_ones(const Array3& others, const PlaceRange& range, const Vec3r& point, const Space& space,
-               Real squared_radius, std::int32_t self, std::int32_t* list) {
-  const Vec3<Lanes> xi = spread<Lanes>(point);
-  const Lanes numbers = lane_numbers();
-  int found = 0;
-  for (std::int32_t j = range.begin; j < range.end; j += lane_count) {
-    const Vec3<Lanes> xj{Lanes::load_unaligned(others.x.data() + j), Lanes::load_unaligned(others.y.data() + j),
-                         Lanes::load_unaligned(others.z.data() + j)};
-    const Lanes r2 = squared_length(space.displacement(xi, xj));
-    const LaneMask close = (r2 < Lanes(squared_radius)) & (numbers < Lanes(static_cast<Real>(range.end - j))) &
-                           (numbers != Lanes(static_cast<Real>(self - j)));
-    found += store_where(list + found, j, close);
+/// The points in the cells around one cell, side by side: every point of the cell is held against all of them.
+class Candidates {
+ public:
+  void collect(const Array3& points, std::span<const PlaceRange> ranges) {
+    ranges_ = ranges;
+    std::size_t n = 0;
+    for (const PlaceRange& range : ranges) n += static_cast<std::size_t>(range.end - range.begin);
+    count_ = static_cast<int>(n);
+    x_.resize(n), y_.resize(n), z_.resize(n), place_.resize(n);
+    std::size_t k = 0;
+    for (const PlaceRange& range : ranges) {
+      for (std::int32_t j = range.begin; j < range.end; ++j, ++k) {
+        const auto place = static_cast<std::size_t>(j);
+        x_[k] = points.x[place], y_[k] = points.y[place], z_[k] = points.z[place], place_[k] = j;
+      }
+    }
   }
-  return found;
-}
+
+  int count() const { return count_; }
+
+  /// Writes the places closer than the radius to `list`, but for the place `self`; returns how many.
+  int close_to(const Vec3r& point, const Space& space, Real squared_radius, std::int32_t self, std::int32_t* list) const {
+    const Vec3<Lanes> xi = spread<Lanes>(point);
+    const Lanes numbers = lane_numbers();
+    const int own = slot_of(self);
+    int found = 0;
+    for (int k = 0; k < count_; k += lane_count) {
+      const Vec3<Lanes> xj{Lanes::load_unaligned(x_.data() + k), Lanes::load_unaligned(y_.data() + k),
+                           Lanes::load_unaligned(z_.data() + k)};
+      const Lanes r2 = squared_length(space.displacement(xi, xj));
+      const LaneMask close = (r2 < Lanes(squared_radius)) & (numbers < Lanes(static_cast<Real>(count_ - k))) &
+                             (numbers != Lanes(static_cast<Real>(own - k)));
+      found += store_where(close, place_.data() + k, list + found);
+    }
+    return found;
+  }
+
+ private:
+  /// Where a place stands among the candidates, or -1.
+  int slot_of(std::int32_t place) const {
+    int before = 0;
+    for (const PlaceRange& range : ranges_) {
+      if (place >= range.begin && place < range.end) return before + (place - range.begin);
+      before += range.end - range.begin;
+    }
+    return -1;
+  }
+
+  std::span<const PlaceRange> ranges_;
+  int count_ = 0;
+  Array<Real> x_, y_, z_;
+  Array<std::int32_t> place_;
+};
+
+constexpr std::size_t padded(std::size_t count) { return (count + lane_count - 1) / lane_count * lane_count; }
 
 }  // namespace
 
@@ -37,40 +75,33 @@ void NeighborList::build(const Array3& points, const Array3& others, const Grid&
   for_each_block(n, [&](std::ptrdiff_t block, std::ptrdiff_t begin, std::ptrdiff_t end) {
     Array<std::int32_t>& memory = blocks_[static_cast<std::size_t>(block)];
     Grid::Cursor cursor;
+    Candidates candidates;
     std::array<PlaceRange, 18> ranges;
     std::array<std::int64_t, 3> last_cell{};
-    int range_count = -1;
-    std::size_t candidates = 0, used = 0;
+    std::size_t used = 0;
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       const Vec3r point = points[i];
       const auto cell = grid.shape().cell_of(point);
-      if (range_count < 0 || cell != last_cell) {
-        range_count = grid.around(cell, cursor, ranges);
+      if (i == static_cast<std::size_t>(begin) || cell != last_cell) {
+        const int range_count = grid.around(cell, cursor, ranges);
+        candidates.collect(others, {ranges.data(), static_cast<std::size_t>(range_count)});
         last_cell = cell;
-        candidates = 0;
-        for (int k = 0; k < range_count; ++k) {
-          const PlaceRange& range = ranges[static_cast<std::size_t>(k)];
-          candidates += static_cast<std::size_t>(range.end - range.begin);
-        }
       }
       // A pack may be written whole past the last neighbour, and the list is padded to a whole pack.
-      const std::size_t needed = used + candidates + 2 * lane_count;
+      const std::size_t needed = used + static_cast<std::size_t>(candidates.count()) + 2 * lane_count;
       if (memory.size() < needed) memory.resize(std::max(needed, memory.size() + memory.size() / 2));
-      int found = 0;
-      for (int k = 0; k < range_count; ++k) {
-        found += close_ones(others, ranges[static_cast<std::size_t>(k)], point, space, radius * radius,
-                            same ? static_cast<std::int32_t>(i) : -1, memory.data() + used + found);
-      }
-      const std::size_t padded = static_cast<std::size_t>((found + lane_count - 1) / lane_count) * lane_count;
-      for (std::size_t k = static_cast<std::size_t>(found); k < padded; ++k) memory[used + k] = memory[used];
+      std::int32_t* list = memory.data() + used;
+      const int found = candidates.close_to(point, space, radius * radius, same ? static_cast<std::int32_t>(i) : -1, list);
+      const auto count = static_cast<std::size_t>(found);
+      std::fill(list + count, list + padded(count), list[0]);
       count_[i] = found;
-      used += padded;
+      used += padded(count);
     }
     // The memory may have moved while it grew: only now do addresses hold.
     std::size_t start = 0;
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       first_[i] = memory.data() + start;
-      start += static_cast<std::size_t>((count_[i] + lane_count - 1) / lane_count) * lane_count;
+      start += padded(static_cast<std::size_t>(count_[i]));
     }
   });
 }
