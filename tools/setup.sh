@@ -22,7 +22,6 @@ present=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/nul
 missing=$(comm -23 <(sort -u <<<"$wanted") <(sort -u <<<"$present") | paste -sd ' ')
 [ -n "$missing" ] || exit 0
 
-say "Missing packages: $missing"
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   by_hand="as root: apt-get install --no-install-recommends $missing"
@@ -34,6 +33,7 @@ if [ "$(id -u)" -ne 0 ]; then
   as_root=(sudo)
 fi
 
+say "Missing packages: $missing"
 install_missing() {
   local apt=(env DEBIAN_FRONTEND=noninteractive apt-get -y -o DPkg::Lock::Timeout=300 -o Acquire::Retries=1)
   "${as_root[@]}" "${apt[@]}" update || true # the lists at hand may do
