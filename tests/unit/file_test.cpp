@@ -1,13 +1,12 @@
 #include "sessile/output/file.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <string>
 
 #include "sessile/core/error.h"
+#include "unit/small_disk.h"
 #include "unit/temporary_folder.h"
 
 namespace sessile {
@@ -15,27 +14,8 @@ namespace {
 
 using test::message_of;
 using test::read_file;
+using test::SmallDisk;
 using test::TemporaryFolder;
-
-/// Files cannot grow beyond `bytes` while this lives: the same as a full disk, without one.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) : old_handler_(signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_limit_);
-    const rlimit limit{bytes, old_limit_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallDisk() {
-    setrlimit(RLIMIT_FSIZE, &old_limit_);
-    signal(SIGXFSZ, old_handler_);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  sighandler_t old_handler_;
-  rlimit old_limit_{};
-};
 
 TEST(WriteWhole, PutsTheBytesThereAndNothingElse) {
   TemporaryFolder folder;
