@@ -22,7 +22,12 @@ constexpr double least_distance = 0.5;
 constexpr double bytes_per_particle = 600;
 
 void refuse_what_does_not_fit(const Scene& scene) {
-  const double particles = estimate_particles(scene);
+  double particles = 0;
+  for (const Body& body : scene.bodies) particles += estimate_fill(body, scene.spacing);
+  for (const Solid& solid : scene.solids) particles += estimate_surface(solid, scene.spacing);
+  if (scene.domain) {
+    for (const Solid& wall : domain_walls(*scene.domain)) particles += estimate_surface(wall, scene.spacing);
+  }
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (particles > 2e9 || particles * bytes_per_particle > memory) {
     throw SceneError(fmt::format("the scene needs about {:.3g} particles and boundary particles, that is {:.3g} GiB; this "
@@ -101,7 +106,9 @@ std::vector<std::string> misplaced(const Array3& points, const std::vector<std::
 }  // namespace
 
 Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
-  if (auto faults = validate(scene_); !faults.empty()) throw SceneError(std::move(faults));
+  std::vector<std::string> invalid;
+  for (const Fault& fault : validate(scene_)) invalid.push_back(text(fault));
+  if (!invalid.empty()) throw SceneError(std::move(invalid));
   refuse_what_does_not_fit(scene_);
   units_ = {scene_.spacing, scene_.support_radius(), scene_.fluid.rest_density};
   space_ = make_space(scene_);
