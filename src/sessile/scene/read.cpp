@@ -123,8 +123,9 @@ ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<c
 
   // What the parts make together, unless one of those parts is at fault already.
   if (root->isObject()) {
-    for (const auto& fault : validate(resolved.scene)) {
-      if (lines.spoils(fault)) continue;
+    auto together = validate(resolved.scene);
+    std::erase_if(together, [&](const Fault& fault) { return lines.spoils(fault); });
+    for (const auto& fault : together) {
       std::string path = fault.path;
       while (!path.empty() && !reader.offsets().contains(path)) path = around(path);
       lines.add(reader.offsets().at(path), fault.path, fault.message);

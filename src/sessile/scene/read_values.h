@@ -116,7 +116,7 @@ class ValueReader {
     const auto names = alternative_names<Choice>();
     std::string_view name = read_type(json, path, must, names);
     if (name.empty()) return;
-    if (name == keep) name = std::visit([]<class T>(const T&) { return T::name; }, value);
+    if (name == keep) name = name_of(value);
     for_each_alternative<Choice>([&]<Named T>(std::type_identity<T>) {
       if (T::name == name) read_group(json, path, value.template emplace<T>(), true);
     });

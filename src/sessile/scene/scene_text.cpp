@@ -107,7 +107,8 @@ std::optional<Json::Value> SceneText::parse() {
     } else if (row.starts_with("  ") && row.size() > 2) {
       std::string message(row.substr(2));
       if (message.ends_with('.')) message.pop_back();
-      errors_.push_back({line, message});
+      // After a first error the parser stops in the middle and then finds the rest of the text too much.
+      if (errors_.empty() || !message.starts_with("Extra")) errors_.push_back({line, message});
     }
     at = end + 1;
   }

@@ -47,6 +47,11 @@ std::vector<std::string_view> alternative_names() {
   return names;
 }
 
+/// The name of the alternative that a choice holds.
+std::string_view name_of(const auto& choice) {
+  return std::visit([]<Named T>(const T&) -> std::string_view { return T::name; }, choice);
+}
+
 /// The keys of a declared struct.
 template <Declared T>
 std::vector<std::string_view> field_keys() {

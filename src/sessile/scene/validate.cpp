@@ -122,7 +122,7 @@ class SceneCheck {
         add(path, fmt::format("{} m is not above domain.min[{}], {} m", high, index, low), uses);
       } else if (edge == Edge::periodic && length < 3 * h) {
         add(path,
-            fmt::format("the domain is periodic along {}, so it must be at least 3 support radii ({} m) long; "
+            fmt::format("the domain is periodic along {}, so it must be at least 3 support radii ({:.6g} m) long; "
                         "it is {} m",
                         name, 3 * h, length),
             uses);
