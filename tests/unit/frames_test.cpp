@@ -45,7 +45,7 @@ Snapshot sample_snapshot(std::size_t n) {
 template <class T>
 std::vector<T> numbers_in(std::string_view bytes) {
   std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
   return values;
 }
 
