@@ -40,7 +40,7 @@ TEST(Summary, HoldsEverythingAsJson) {
   simulation.totals = {.steps = 8,
                        .iterations = 20,
                        .unconverged_solves = 1,
-                       .dt_min_overrules = 2,
+                       .overruled_steps = 2,
                        .emitted = 3,
                        .waits = 4,
                        .out = 5,
@@ -60,7 +60,7 @@ TEST(Summary, HoldsEverythingAsJson) {
   EXPECT_EQ(summary["iterations"], 20);
   EXPECT_EQ(summary["iterations_per_step"], 2.5);
   EXPECT_EQ(summary["unconverged_solves"], 1);
-  EXPECT_EQ(summary["dt_min_overrules"], 2);
+  EXPECT_EQ(summary["overruled_steps"], 2);
   EXPECT_EQ(summary["emitted"], 3);
   EXPECT_EQ(summary["waits"], 4);
   EXPECT_EQ(summary["out"], 5);
