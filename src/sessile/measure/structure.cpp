@@ -75,7 +75,8 @@ std::size_t keep_linked(std::span<const std::int32_t> row, const Array<Real>& di
   std::size_t kept = 0;
   for (std::size_t k = 0; k < row.size(); ++k) {
     links[kept] = row[k];
-    kept += (row[k] < self) & (distances[k] < link2);  // no branch on a coin toss
+    const bool before = row[k] < self, near = distances[k] < link2;
+    kept += before && near;  // both are known: no branch on a coin toss
   }
   return kept;
 }
