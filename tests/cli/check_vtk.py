@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Opens a .vtp frame or a .pvd collection with VTK and checks what is in it.
 
     check_vtk.py FILE [--fields id,velocity,...] [--particles N] [--frames N] [--values TEXT]

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -24,7 +25,9 @@ class AllPairs {
           lists_[i].push_back(static_cast<std::int32_t>(j));
       }
     }
-    for (const auto& list : lists_) {
+    std::mt19937 random(5);  // lists promise no order
+    for (auto& list : lists_) {
+      std::shuffle(list.begin(), list.end(), random);
       firsts_.push_back(list.data());
       counts_.push_back(static_cast<std::int32_t>(list.size()));
     }

@@ -43,6 +43,7 @@ StatsRow sample_row(std::span<const SolidForce> solids = {}) {
   row.time = 0.1;
   row.last_step = {.dt = 1.0 / 3,
                    .bound = "cfl",
+                   .overruled = "",
                    .iterations = 7,
                    .converged = true,
                    .predicted_error = 9e-5,

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "sessile/measure/blocks.h"
-
 namespace sessile {
 namespace {
 
 constexpr int loose_neighbors = 4;
 constexpr double link_distance = 1.5;  // over dx
+// Much larger than the blocks of other loops: what links two blocks is joined by one thread.
+constexpr std::size_t particles_per_block = 4096;
 
 /// Sets of particles, each known by its smallest index: the same sets in whatever order they are joined.
 class Sets {
@@ -73,10 +73,10 @@ std::size_t keep_linked(std::span<const std::int32_t> row, const Array<Real>& di
                         Array<std::int32_t>& links) {
   if (links.size() < row.size()) links.resize(row.size());
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < row.size() && row[k] < self;
-       ++k) {  // without a branch on the distance, which is a coin toss
+  for (std::size_t k = 0; k < row.size(); ++k) {
     links[kept] = row[k];
-    kept += distances[k] < link2;
+    const bool before = row[k] < self, near = distances[k] < link2;
+    kept += before && near;  // both are known: no branch on a coin toss
   }
   return kept;
 }
@@ -114,7 +114,11 @@ Structure structure(const Cloud& cloud) {
   const auto link2 = static_cast<Real>(std::pow(link_distance * cloud.spacing, 2));
   const auto support2 = static_cast<Real>(std::pow(cloud.support_radius, 2));
 
-  const auto parts = measure_blocks<Part>(n, [&](std::size_t begin, std::size_t end, Part& part) {
+  std::vector<Part> parts((n + particles_per_block - 1) / particles_per_block);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t block = 0; block < parts.size(); ++block) {
+    const std::size_t begin = block * particles_per_block, end = std::min(n, begin + particles_per_block);
+    Part& part = parts[block];
     const auto first = static_cast<std::int32_t>(begin);
     Array<Real> distances;
     Array<std::int32_t> links;
@@ -137,7 +141,7 @@ Structure structure(const Cloud& cloud) {
       part.loose += neighbors.size() <= loose_neighbors && walls.empty();
       part.first_layer += squared_distances(cloud, i, cloud.wall_position, walls, distances) < link2;
     }
-  });
+  }
   for (const Part& part : parts) {
     result.loose += part.loose;
     result.first_layer += part.first_layer;

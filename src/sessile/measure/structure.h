@@ -10,7 +10,7 @@
 
 namespace sessile {
 
-/// Read-only rows of neighbour indices, one per particle, ascending; a NeighborList is one.
+/// Read-only rows of neighbour indices, one per particle, in any order; a NeighborList is one.
 struct NeighborRows {
   const std::int32_t* const* firsts = nullptr;
   const std::int32_t* counts = nullptr;

@@ -62,12 +62,13 @@ std::vector<std::string> fields_of(const Scene& scene) {
   for (const KnownColumn& column : known_columns()) {
     if (!column.name.starts_with(acceleration_prefix)) names.emplace_back(column.name);
   }
-  const auto add = [&](std::string_view force) {
-    std::string name = fmt::format("{}{}", acceleration_prefix, force);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
-  };
-  for (const std::string_view force : {"gravity", "viscosity", "pressure"}) add(force);
-  for (const Force& force : scene.forces) std::visit([&](const auto& model) { add(model.name); }, force);
+  std::vector<std::string_view> forces{"gravity", "viscosity", "pressure"};
+  for (const Force& force : scene.forces) std::visit([&](const auto& model) { forces.push_back(model.name); }, force);
+  for (auto force = forces.begin(); force != forces.end(); ++force) {
+    // As in Simulation::acceleration_names(), the second force of a name gets a number.
+    const auto same = std::count(forces.begin(), force, *force);
+    names.push_back(fmt::format("{}{}{}", acceleration_prefix, *force, same ? fmt::format("_{}", same + 1) : ""));
+  }
   return names;
 }
 

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <string>
 
 #include "sessile/output/snapshot.h"
@@ -28,8 +27,6 @@ ColumnValues counts(const NeighborList& list, std::size_t n) {
   return values;
 }
 
-double mass_unit(const Scene& scene) { return scene.fluid.rest_density * std::pow(scene.spacing, 3); }
-
 /// A field and where its numbers come from.
 struct Source {
   KnownColumn known;
@@ -48,10 +45,11 @@ constexpr auto sources = std::to_array<Source>({
        return numbers(s.particles().size(), [&](std::size_t i) { return length(s.particles().velocity[i]); });
      }},
     {{"density", "kg/m^3", 1, "density"},
-     [](const Simulation& s) { return scaled(s.density(), s.scene().fluid.rest_density); }},
+     [](const Simulation& s) { return scaled(s.density(), s.units().rest_density); }},
     {{"pressure", "Pa", 1, "pressure"},
-     [](const Simulation& s) { return scaled(s.particles().pressure, s.scene().fluid.rest_density); }},
-    {{"mass", "kg", 1, "mass"}, [](const Simulation& s) { return scaled(s.particles().mass, mass_unit(s.scene())); }},
+     [](const Simulation& s) { return scaled(s.particles().pressure, s.units().rest_density); }},
+    {{"mass", "kg", 1, "mass"},
+     [](const Simulation& s) { return scaled(s.particles().mass, s.units().particle_mass()); }},
     {{"normal", "", 3, "normal n_i of the surface, pointing into the liquid; near zero inside"},
      [](const Simulation& s) -> ColumnValues { return interleaved(s.normal()); }},
     {{"neighbors", "", 1, "number of other fluid particles within the support radius"},

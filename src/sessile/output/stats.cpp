@@ -26,6 +26,7 @@ constexpr auto columns = std::to_array<StatsColumn<StatsRow>>({
     {"time", "s", [](const StatsRow& r) -> Cell { return r.time; }},
     {"dt", "s", [](const StatsRow& r) -> Cell { return r.last_step.dt; }},
     {"bound", "", [](const StatsRow& r) -> Cell { return r.last_step.bound; }},
+    {"overruled", "", [](const StatsRow& r) -> Cell { return r.last_step.overruled; }},
     {"iterations", "", [](const StatsRow& r) -> Cell { return std::int64_t{r.last_step.iterations}; }},
     {"predicted_density_error", "", [](const StatsRow& r) -> Cell { return r.last_step.predicted_error; }},
     {"predicted_density_error_max", "", [](const StatsRow& r) -> Cell { return r.last_step.predicted_error_max; }},
