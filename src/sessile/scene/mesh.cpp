@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <exception>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -52,6 +54,17 @@ void keep_three_formats(Assimp::Importer& importer) {
   }
 }
 
+/// The importer never returns from a PLY file whose header has no end.
+void check_ply_header(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string head(std::size_t{1} << 16, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  if (!head.starts_with("ply") || head.find("\nend_header") == std::string::npos) {
+    throw FileError(file + ": cannot be read: its PLY header is not complete");
+  }
+}
+
 }  // namespace
 
 TriangleMesh make_mesh(const std::vector<Vec3d>& corners, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
@@ -84,6 +97,10 @@ TriangleMesh load_mesh(const Mesh& mesh) {
   const auto size = std::filesystem::file_size(mesh.file, error);
   if (error) throw FileError(mesh.file + ": cannot be read: " + error.message());
   if (size > largest_file) throw FileError(fmt::format("{}: is larger than {} MiB", mesh.file, largest_file >> 20));
+
+  std::string extension = std::filesystem::path(mesh.file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".ply") check_ply_header(mesh.file);
 
   Assimp::Importer importer;
   keep_three_formats(importer);
