@@ -106,15 +106,21 @@ TEST_F(MeshFiles, ThreeFormats) {
 }
 
 TEST_F(MeshFiles, FaultsAreSentences) {
-  EXPECT_TRUE(message_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n").starts_with(folder_.string() + "/a.obj: "));
-  EXPECT_TRUE(message_of("b.obj", "").starts_with(folder_.string() + "/b.obj: cannot be read: "));
+  const auto ends = [&](const std::string& name, const std::string& text, const std::string& end) {
+    EXPECT_EQ(message_of(name, text), (folder_ / name).string() + ": " + end);
+  };
+  ends("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "holds no triangles");
+  ends("b.obj", "", "holds no triangles");
+  ends("f.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "a face names corner 9 of 3");
+  ends("i.obj", "v 0 0\n", "line 1: expected three numbers");
+  ends("j.obj", "v 0 0 0\nf 1 x 1\n", "line 2: expected the number of a corner");
+  ends("g.stl", cube_stl().substr(0, 200), "is no STL file, or its end is missing");
+  ends("h.ply", cube_ply().substr(0, 100), "has no complete PLY header");
+  ends("k.ply", cube_ply().substr(0, 300), "its numbers end too early or are none");
   EXPECT_TRUE(has(message_of("c.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), "c.obj: holds no triangles"));
   EXPECT_TRUE(has(message_of("d.obj", "v 0 0 0\nv 1 0 0\nv 0 1e30 0\nf 1 2 3\n"),
-                  "d.obj: vertex 2 is not finite or farther away than 1000000000000 m"));
+                  "d.obj: corner 3 is not finite or farther away than 1000000000000 m"));
   EXPECT_NE(message_of("e.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n"), "");
-  EXPECT_NE(message_of("f.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "");
-  EXPECT_NE(message_of("g.stl", cube_stl().substr(0, 200)), "");
-  EXPECT_NE(message_of("h.ply", cube_ply().substr(0, 150)), "");
   EXPECT_THROW(load_mesh({(folder_ / "none.obj").string(), 1}), FileError);
 }
 
@@ -122,7 +128,7 @@ TEST_F(MeshFiles, BrokenFilesDoNotCrash) {
   std::mt19937 random(7);
   const std::array<std::pair<const char*, std::string>, 3> sound{
       {{"m.obj", cube_obj()}, {"m.ply", cube_ply()}, {"m.stl", cube_stl()}}};
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 900; ++round) {
     auto [name, text] = sound[static_cast<std::size_t>(round) % 3];
     for (int k = 0; k < 1 + round % 5; ++k) text[random() % text.size()] = static_cast<char>(random());
     if (round % 4 == 0) text.resize(random() % text.size());
@@ -158,7 +164,7 @@ TEST_F(MeshFiles, AreSolids) {
   EXPECT_FALSE(geometry.crossed({5, 0, 0}, {8, 0, 0}));
   EXPECT_EQ(geometry.lower(), (Vec3d{4, -1, -1}));
   const auto samples = sample_surface(solid, 0.1);
-  EXPECT_NEAR(static_cast<double>(samples.size()), 2400, 250);
+  EXPECT_NEAR(static_cast<double>(samples.size()), 2700, 400);
   for (const auto& p : samples) {
     EXPECT_NEAR(std::max({std::abs(p.x - 5), std::abs(p.y), std::abs(p.z)}), 1, 1e-12);
   }
@@ -216,14 +222,14 @@ TEST(MeshSampling, IsEvenWhateverTheTriangles) {
   for (const std::uint32_t n : {8U, 32U, 128U}) {
     const auto mesh = torus(1, 0.4, n);
     const auto samples = sample_mesh(mesh, 0.1, 1, "");
-    EXPECT_NEAR(static_cast<double>(samples.size()) * 0.01, mesh.area(), 0.2 * mesh.area()) << n;
+    EXPECT_NEAR(static_cast<double>(samples.size()) * 0.01, mesh.area(), 0.25 * mesh.area()) << n;
     EXPECT_EQ(samples, sample_mesh(mesh, 0.1, 1, ""));
     for (std::size_t i = 0; i < samples.size(); ++i) {
       double nearest = 1;
       for (std::size_t j = 0; j < samples.size(); ++j) {
         if (i != j) nearest = std::min(nearest, length(samples[i] - samples[j]));
       }
-      ASSERT_GE(nearest, 0.092 * (1 - 1e-12));
+      ASSERT_GE(nearest, 0.086 * (1 - 1e-12));
       ASSERT_LT(nearest, 0.15);
     }
   }
