@@ -7,12 +7,19 @@
 
 #include "sessile/core/array.h"
 #include "sessile/core/space.h"
+#include "sessile/core/units.h"
+#include "sessile/neighbors/grid.h"
 #include "sessile/neighbors/neighbors.h"
+#include "sessile/particles/emitter.h"
 #include "sessile/particles/particles.h"
+#include "sessile/pressure/solve.h"
+#include "sessile/scene/sampling.h"
 #include "sessile/scene/scene.h"
 #include "sessile/walls/walls.h"
 
 namespace sessile {
+
+struct StepView;
 
 /// Wall time [s] spent in each stage since the start.
 struct StageTimes {
@@ -23,6 +30,7 @@ struct StageTimes {
 struct StepReport {
   double dt = 0;                    ///< [s]
   std::string_view bound;           ///< what set dt: cfl, force, viscosity, capillary, growth, dt_max, dt_min, fixed
+  std::string_view overruled;       ///< the stability bound that a fixed dt or dt_min exceeds, or ""
   int iterations = 0;               ///< of the pressure solve
   bool converged = true;            ///< whether the solve reached its error
   double predicted_error = 0;       ///< average compression over rest density that the solver predicts
@@ -34,7 +42,7 @@ struct Totals {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::int64_t unconverged_solves = 0;
-  std::int64_t dt_min_overrules = 0;  ///< steps in which dt_min was larger than a bound
+  std::int64_t overruled_steps = 0;   ///< steps in which a fixed dt or dt_min exceeded a stability bound
   std::int64_t emitted = 0;           ///< particles let in by emitters
   std::int64_t waits = 0;             ///< layers that fell due while their place was taken
   std::int64_t out = 0;               ///< particles that left an open domain
@@ -63,7 +71,8 @@ class Simulation {
   const NeighborList& wall_neighbors() const { return wall_neighbors_; }    ///< wall samples around each fluid particle
   const Array<Real>& density() const { return density_; }                   ///< rho / rho0
   const Array3& normal() const { return normal_; }  ///< n_i of (19), dimensionless
-  Space space() const { return space_; }            ///< displacements, across periodic faces too
+  const Units& units() const { return units_; }
+  const Space& space() const { return space_; }  ///< displacements, across periodic faces too
 
   const StepReport& last_step() const { return last_step_; }
   const Totals& totals() const { return totals_; }
@@ -78,15 +87,31 @@ class Simulation {
 
  private:
   void look_around();
+  void accelerate();
+  double next_time_step();
+  void predict_velocities(double dt);
+  void solve_pressure(double dt);
+  void move(double dt);
+  void take_out_what_left();
+  void let_in_new_layers();
+  StepView view() const;
 
   Scene scene_;
+  Units units_;
   Space space_;
+  GridShape grid_shape_;
   double time_ = 0;
   Particles particles_;
+  std::int64_t next_id_ = 0;
+  std::vector<LayerSource> sources_;
   Walls walls_;
+  std::vector<SolidGeometry> solids_;  // one per solid of walls_
+  bool coarse_walls_ = false;          // whether some solid's samples lie further apart than dx
+  Grid grid_, wall_grid_;
   NeighborList fluid_neighbors_, wall_neighbors_;
   Array<Real> density_;
-  Array3 normal_;
+  Array3 normal_, acceleration_;
+  PressureScratch pressure_;
   StepReport last_step_;
   Totals totals_;
   StageTimes stage_times_;

@@ -22,7 +22,8 @@ struct AlignedAllocator {
   template <class U>
   AlignedAllocator(const AlignedAllocator<U>&) {}
 
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
+  /// One widest pack of slack at the end: lanes may load past the last element (and mask what they find there).
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T) + 64, alignment)); }
   void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
   template <class U, class... Args>
   void construct(U* p, Args&&... args) {

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string_view>
 #include <tuple>
 
+#include "sessile/core/array.h"
 #include "sessile/core/fields.h"
-#include "sessile/core/vec.h"
 
 namespace sessile {
 
-struct ForceContext;
+struct SolidForce;
+struct StepView;
+struct Walls;
 
 /// How (14) and (22) take x_ij: as printed, or divided by its length as in Akinci 2013.
 enum class Direction { displacement, unit };
@@ -45,7 +48,10 @@ struct SurfaceFeature {
   }
 
   /// Adds this model's acceleration [m/s^2] of every particle.
-  void add_acceleration(const ForceContext& context) const;
+  void add_acceleration(const StepView& view, Array3& acceleration) const;
+
+  /// Adds to each solid the opposite of what its adhesion does to the liquid.
+  void add_reaction(const StepView& view, const Walls& walls, std::span<SolidForce> forces) const;
 
   /// Macroscopic surface tension [N/m] of the cohesion term for a uniform pair distribution:
   /// (271/135168) alpha rho0^2 h^3 (displacement), (21/7040) alpha rho0^2 h^2 (unit).

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sessile/core/array.h"
+#include "sessile/core/radix_sort.h"
 
 namespace sessile {
 
@@ -20,6 +21,7 @@ struct PlaceRange {
 struct GridAxis {
   double origin = 0;        ///< [m]
   double cell = 1;          ///< length of a cell [m], a hair over the support radius
+  double inverse_cell = 1;  ///< [1/m]
   std::int64_t ring = 0;    ///< number of cells around a periodic axis, or 0
 };
 
@@ -45,32 +47,44 @@ class Grid {
   /// order()[k] is the point at place k. Callers reorder their points by it, and then places are indices.
   std::span<const std::int32_t> order() const { return order_; }
 
-  /// Ranges of places in the 27 cells around a cell; at most 18 of them. Returns how many.
-  int around(const std::array<std::int64_t, 3>& cell, std::span<PlaceRange, 18> ranges) const;
+  /// Where the last search ended in each of the 9 rows around a cell: the next one, close by, starts there.
+  struct Cursor {
+    std::array<std::size_t, 9> hints{};
+  };
+
+  /// Ranges of places in the 27 cells around a cell, none empty; at most 18 (rows cut in two by a periodic face).
+  /// Returns how many. Cheap when successive calls with one cursor ask for cells in the grid's order.
+  int around(const std::array<std::int64_t, 3>& cell, Cursor& cursor, std::span<PlaceRange, 18> ranges) const;
 
   const GridShape& shape() const { return shape_; }
   std::size_t cell_count() const { return keys_.size(); }
   std::size_t bytes() const;
 
  private:
-  /// Numbers the occupied stretches of one axis; far gaps are closed up when the plain numbers would not fit a key.
+  /// Numbers the cells of one axis 1, 2, 3 ... from the first occupied one, so that a key of few bits names a cell.
+  /// Where strays lie so far out that keys would not fit 63 bits, gaps are closed up to one empty number.
   struct AxisNumbers {
-    std::int64_t first = 0;               // cell that gets number 1
-    std::int64_t count = 0;               // numbers in use, 1 ... count
-    std::vector<std::int64_t> occupied;   // only when gaps are closed up: the occupied cells, ascending
-    std::vector<std::int64_t> numbers;    // and their numbers
+    std::int64_t first = 0;
+    std::int64_t count = 0;
     int bits = 0;
+    std::vector<std::int64_t> occupied;  // only with gaps closed up: the occupied cells, ascending ...
+    std::vector<std::int64_t> numbers;   // ... and their numbers
 
-    std::int64_t number(std::int64_t cell) const;  // 0 when the cell has none
+    std::int64_t number_at_or_after(std::int64_t cell) const;   // of the first cell >= cell, or count + 1
+    std::int64_t number_at_or_before(std::int64_t cell) const;  // of the last cell <= cell, or 0
+    void close_gaps(std::vector<std::int64_t> cells);
   };
 
-  std::int32_t place_of(std::uint64_t key) const;
+  void number_axes(const Array3& points);
+  std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) const;
+  std::size_t seek(std::uint64_t key, std::size_t hint) const;
 
   GridShape shape_;
   std::array<AxisNumbers, 3> axes_;
   std::vector<std::uint64_t> keys_;   // occupied cells, ascending
   std::vector<std::int32_t> begins_;  // first place of each, and the end
   Array<std::int32_t> order_;
+  Array<KeyedPlace> items_, items_scratch_;
 };
 
 }  // namespace sessile

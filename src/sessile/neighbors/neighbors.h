@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "sessile/core/array.h"
+#include "sessile/core/space.h"
 #include "sessile/neighbors/grid.h"
 
 namespace sessile {
 
 /// For each particle of one set the indices of the particles of another (or the same) set closer than the support
-/// radius, strictly; itself left out. Indices ascend. Built anew once a step.
+/// radius, strictly; itself left out. Built anew once a step. Lists are padded to whole packs of lanes.
 class NeighborList {
  public:
   std::size_t size() const { return first_.size(); }
@@ -21,15 +22,15 @@ class NeighborList {
   int count(std::size_t i) const { return count_[i]; }
 
   /// Finds, for every point of `points`, the points of `others` with |x_i - x_j| < radius. `grid` holds `others`.
-  /// When both are the same set, `same` leaves each point out of its own list.
-  void build(const Array3& points, const Array3& others, const Grid& grid, Real radius, bool same);
+  /// When both are the same set, `same` leaves each point out of its own list. `others` is in the order of `grid`.
+  void build(const Array3& points, const Array3& others, const Grid& grid, const Space& space, Real radius, bool same);
 
   const std::int32_t* const* firsts() const { return first_.data(); }
   const std::int32_t* counts() const { return count_.data(); }
   std::size_t bytes() const;
 
  private:
-  std::vector<const std::int32_t*> first_;
+  Array<const std::int32_t*> first_;
   Array<std::int32_t> count_;
   std::vector<Array<std::int32_t>> blocks_;  // each block of particles owns the memory of its lists
 };

@@ -31,6 +31,16 @@ struct Walls {
   std::vector<SolidForce> forces;     ///< one per solid
 
   std::size_t size() const { return solid.size(); }
+  std::size_t bytes() const;
 };
+
+class Grid;
+struct GridShape;
+struct Space;
+
+/// Samples the solids and gives each boundary particle its psi from all samples within the support radius (Akinci 2012).
+/// Fills `grid` with them: they are in its order. Throws SceneError or FileError when a solid cannot be sampled.
+Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const GridShape& shape, const Space& space,
+                 Grid& grid);
 
 }  // namespace sessile

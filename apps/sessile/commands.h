@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// The program's subcommands: each adds itself to the command line and says what its call came to.
+namespace sessile::app {
+
+/// What the program exits with.
+enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 130 };
+
+void add_run(CLI::App& program, int& exit_code);
+void add_check(CLI::App& program, int& exit_code);
+void add_info(CLI::App& program, int& exit_code);
+void add_models(CLI::App& program, int& exit_code);
+
+}  // namespace sessile::app

@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+
+#include <clocale>
+#include <new>
+
+#include "commands.h"
+#include "sessile/core/error.h"
+#include "sessile/version.h"
+
+int main(int argc, char** argv) {
+  using namespace sessile;
+  CLI::App program("Liquids at the scale where surface tension and adhesion rule.", "sessile");
+  program.set_version_flag("--version", "sessile " + std::string(version()));
+  program.require_subcommand(1);
+  program.footer("`sessile COMMAND --help` says more. Exit codes: 0 done, 1 the run failed, 2 wrong usage or scene, "
+                 "130 interrupted.");
+  int exit_code = app::done;
+  app::add_run(program, exit_code);
+  app::add_check(program, exit_code);
+  app::add_info(program, exit_code);
+  app::add_models(program, exit_code);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return program.exit(e) == 0 ? app::done : app::bad_input;
+  } catch (const SceneError& e) {
+    for (const std::string& line : e.messages) fmt::print(stderr, "{}\n", line);
+    return app::bad_input;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "sessile: out of memory\n");
+    return app::run_failed;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "sessile: {}\n", e.what());
+    return app::run_failed;
+  }
+  return exit_code;
+}

@@ -1,0 +1,91 @@
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <json/json.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sessile::app {
+namespace {
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace
+
+ProgressStyle progress_style(const std::string& word) {
+  if (word == "plain") return ProgressStyle::plain;
+  if (word == "json") return ProgressStyle::json;
+  if (word == "none") return ProgressStyle::none;
+  return isatty(STDERR_FILENO) ? ProgressStyle::terminal : ProgressStyle::plain;
+}
+
+void Progress::update(const Simulation& simulation) {
+  if (style_ == ProgressStyle::none) return;
+  const std::chrono::duration<double> pause = Clock::now() - shown_;
+  if (pause.count() < (style_ == ProgressStyle::plain ? 2.0 : 0.2)) return;
+  show(simulation);
+}
+
+void Progress::show(const Simulation& simulation) {
+  shown_ = Clock::now();
+  const double wall = std::chrono::duration<double>(shown_ - start_).count();
+  const double end = simulation.scene().time.end, time = simulation.time();
+  const double share = std::min(1.0, time / end);
+  const auto steps = static_cast<double>(simulation.totals().steps);
+  const double rate = wall > 0 ? steps / wall : 0;
+  const double left = share > 0 ? wall * (1 - share) / share : 0;
+  const StepReport& last = simulation.last_step();
+  if (style_ == ProgressStyle::json) {
+    Json::Value line;
+    line["time"] = time;
+    line["end"] = end;
+    line["step"] = static_cast<Json::Int64>(simulation.totals().steps);
+    line["dt"] = last.dt;
+    line["bound"] = std::string(last.bound);
+    line["iterations"] = last.iterations;
+    line["density_error"] = last.predicted_error;
+    line["particles"] = static_cast<Json::UInt64>(simulation.particles().size());
+    line["steps_per_second"] = rate;
+    line["seconds_left"] = left;
+    Json::StreamWriterBuilder compact;
+    compact["indentation"] = "";
+    fmt::print("{}\n", Json::writeString(compact, line));
+    std::fflush(stdout);
+    return;
+  }
+  const std::string line = fmt::format(
+      "{:5.1f} %  t {:.4f} of {:g} s  step {}  dt {:.3g} s ({})  {} iterations  {} particles  {:.1f} steps/s  {} left",
+      100 * share, time, end, simulation.totals().steps, last.dt, last.bound, last.iterations,
+      simulation.particles().size(), rate, duration_text(left));
+  if (style_ == ProgressStyle::terminal) {
+    fmt::print(stderr, "\r\033[K{}", line);
+    line_open_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", line);
+  }
+  std::fflush(stderr);
+}
+
+void Progress::finish(const Simulation& simulation) {
+  if (style_ != ProgressStyle::none) show(simulation);
+  finish();
+}
+
+void Progress::finish() {
+  if (line_open_) fmt::print(stderr, "\n");
+  line_open_ = false;
+}
+
+void Progress::warn(const std::string& message) {
+  finish();
+  fmt::print(stderr, "warning: {}\n", message);
+}
+
+}  // namespace sessile::app

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "sessile/simulation.h"
+
+namespace sessile::app {
+
+/// How progress is shown: a line that renews itself on a terminal, plain lines elsewhere, JSON lines, or nothing.
+enum class ProgressStyle { terminal, plain, json, none };
+
+/// "auto", "plain", "json" or "none"; auto is `terminal` when standard error is one.
+ProgressStyle progress_style(const std::string& word);
+
+/// Shows how far a run is: on standard error for people, on standard output as JSON lines for programs.
+class Progress {
+ public:
+  explicit Progress(ProgressStyle style) : style_(style) {}
+  ~Progress() { finish(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Called after each step; shows something only every so often.
+  void update(const Simulation& simulation);
+
+  /// Shows the last state and ends the line.
+  void finish(const Simulation& simulation);
+
+  /// A warning on a line of its own.
+  void warn(const std::string& message);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void show(const Simulation& simulation);
+  void finish();
+
+  ProgressStyle style_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point shown_ = start_;
+  bool line_open_ = false;
+};
+
+}  // namespace sessile::app

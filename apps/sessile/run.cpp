@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <chrono>
+#include <csignal>
+#include <optional>
+
+#include "commands.h"
+#include "progress.h"
+#include "recorder.h"
+#include "sessile/core/error.h"
+#include "sessile/output/check.h"
+#include "sessile/scene/describe.h"
+#include "sessile/scene/read.h"
+#include "sessile/version.h"
+
+namespace sessile::app {
+namespace {
+
+struct RunOptions {
+  std::string scene;
+  std::string folder;
+  std::vector<std::string> overrides;
+  std::optional<double> until;
+  int threads = 0;
+  std::string progress = "auto";
+};
+
+// Set by the signal handler, which may touch nothing else.
+volatile std::sig_atomic_t stop_asked = 0;
+
+/// Ctrl-C ends the run after the step at hand; a second one ends the program at once.
+void stop_on_signals() {
+  const auto ask = [](int signal) {
+    stop_asked = 1;
+    std::signal(signal, SIG_DFL);
+  };
+  std::signal(SIGINT, ask);
+  std::signal(SIGTERM, ask);
+}
+
+/// Says once what the user should know while it happens.
+class Warnings {
+ public:
+  void look(const Simulation& simulation, Progress& progress) {
+    const StepReport& last = simulation.last_step();
+    if (!last.overruled.empty() && !said_overruled_) {
+      said_overruled_ = true;
+      progress.warn(fmt::format("at {:.4g} s the step of {:g} s ({}) exceeds the {} bound", simulation.time(), last.dt,
+                                last.bound, last.overruled));
+    }
+    if (!last.converged && !said_unconverged_) {
+      said_unconverged_ = true;
+      progress.warn(fmt::format("at {:.4g} s the pressure solve ended at its {} iterations with an average density error "
+                                "of {:.3g} %",
+                                simulation.time(), last.iterations, 100 * last.predicted_error));
+    }
+  }
+
+ private:
+  bool said_overruled_ = false, said_unconverged_ = false;
+};
+
+void print_end(const Simulation& simulation, const std::string& folder, std::int64_t frames, double wall) {
+  const Totals& totals = simulation.totals();
+  const auto steps = static_cast<double>(std::max<std::int64_t>(totals.steps, 1));
+  fmt::print("{} steps to {:.4g} s in {:.1f} s of wall time, {:.2f} ms a step, {:.1f} iterations a step\n", totals.steps,
+             simulation.time(), wall, 1e3 * wall / steps, static_cast<double>(totals.iterations) / steps);
+  fmt::print("{} particles, {} out, {} lost", simulation.particles().size(), totals.out, totals.lost);
+  if (totals.unconverged_solves > 0) fmt::print("; {} solves above their error", totals.unconverged_solves);
+  if (totals.overruled_steps > 0) fmt::print("; {} steps above a stability bound", totals.overruled_steps);
+  if (totals.waits > 0) fmt::print("; {} layers had to wait", totals.waits);
+  fmt::print("\n{} frames, stats.csv and summary.json are in {}\n", frames, folder);
+}
+
+int run(RunOptions options) {
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  if (options.until) options.overrides.push_back(fmt::format("time.end={:.17g}", *options.until));
+  if (options.folder.empty()) {
+    options.folder = (std::filesystem::path("results") / std::filesystem::path(options.scene).stem()).string();
+  }
+  const ResolvedScene resolved = read_resolved_scene(options.scene, options.overrides);
+  if (auto faults = check_output(resolved.scene); !faults.empty()) throw SceneError(std::move(faults));
+
+  const auto start = std::chrono::steady_clock::now();
+  const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  Simulation simulation(resolved.scene);
+  Recorder recorder(options.folder, simulation);
+  Progress progress(progress_style(options.progress));
+  Warnings warnings;
+  RunFacts facts;
+  facts.version = version();
+  facts.scene_json = to_json(resolved.scene);
+  stop_on_signals();
+  try {
+    while (!simulation.finished() && !stop_asked) {
+      simulation.step();
+      recorder.record(simulation);
+      warnings.look(simulation, progress);
+      progress.update(simulation);
+    }
+  } catch (const std::exception& e) {
+    // What has been written stays good; the summary says how it ended, if the disk still takes it.
+    facts.status = RunStatus::failed;
+    facts.message = e.what();
+    facts.wall_time = wall();
+    try {
+      recorder.finish(simulation, facts);
+    } catch (const std::exception&) {
+      // The first error is the one to report.
+    }
+    throw;
+  }
+  facts.status = stop_asked ? RunStatus::interrupted : RunStatus::done;
+  progress.finish(simulation);
+  facts.wall_time = wall();
+  recorder.finish(simulation, facts);
+  if (stop_asked) fmt::print(stderr, "interrupted; everything up to {:.4g} s is written\n", simulation.time());
+  if (options.progress != "json") print_end(simulation, options.folder, recorder.frames(), wall());
+  return stop_asked ? interrupted : done;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.add_subcommand("run", "Run a scene and write its frames, stats.csv and summary.json.");
+  command->add_option("scene", options->scene, "scene file")->required()->type_name("SCENE");
+  command->add_option("-o,--output", options->folder, "folder for the results (default: results/<scene>)")
+      ->type_name("DIR");
+  command->add_option("--set", options->overrides, "put a value over the scene's, e.g. time.fixed_dt=0.002")
+      ->type_name("PATH=VALUE")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--until", options->until, "end at this simulated time")->type_name("SECONDS");
+  command->add_option("--threads", options->threads, "threads to use (default: all)")
+      ->type_name("N")->check(CLI::Range(1, 1024));
+  command->add_option("--progress", options->progress, "how progress is shown")
+      ->check(CLI::IsMember({"auto", "plain", "json", "none"}))->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace sessile::app

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <xsimd/xsimd.hpp>
+
+#include "sessile/core/real.h"
+#include "sessile/core/vec.h"
+
+/// A thin face over xsimd. Pair laws are generic in the type of a neighbour's index: an int gives numbers, IndexLanes
+/// give packs, and the same lines of code compute both. Internal: no installed header includes this one.
+namespace sessile {
+
+using Lanes = xsimd::batch<Real>;
+using LaneIndex = xsimd::as_integer_t<Real>;
+using IndexLanes = xsimd::batch<LaneIndex>;
+using LaneMask = Lanes::batch_bool_type;
+inline constexpr int lane_count = static_cast<int>(Lanes::size);
+
+template <class J>
+concept NeighborIndex = std::same_as<J, int> || std::same_as<J, IndexLanes>;
+
+// --- the few functions a pair law needs, for numbers; packs find xsimd's by their argument -------------------------
+
+inline Real select(bool condition, Real a, Real b) { return condition ? a : b; }
+inline Real max(Real a, Real b) { return a > b ? a : b; }
+inline Real min(Real a, Real b) { return a < b ? a : b; }
+using xsimd::max;
+using xsimd::min;
+using xsimd::select;
+using xsimd::sqrt;
+
+/// 1/a for a length or its square; greatest number instead of infinity at 0, so that 0 times it stays 0.
+template <class T>
+T safe_inverse(const T& a) {
+  return T(Real(1)) / max(a, T(std::numeric_limits<Real>::min()));
+}
+
+// --- sums over neighbours: start, add where the mask holds, add up the lanes --------------------------------------
+
+inline void set_zero(Real& a) { a = 0; }
+inline void set_zero(Lanes& a) { a = Lanes(Real(0)); }
+inline void add_where(const LaneMask& mask, Lanes& sum, const Lanes& a) { sum += select(mask, a, Lanes(Real(0))); }
+inline void add(Real& sum, Real a) { sum += a; }
+inline Real add_up(const Lanes& a) { return xsimd::hadd(a); }
+
+template <class T>
+void set_zero(Vec3<T>& a) {
+  set_zero(a.x), set_zero(a.y), set_zero(a.z);
+}
+inline void add_where(const LaneMask& mask, Vec3<Lanes>& sum, const Vec3<Lanes>& a) {
+  add_where(mask, sum.x, a.x), add_where(mask, sum.y, a.y), add_where(mask, sum.z, a.z);
+}
+inline void add(Vec3r& sum, const Vec3r& a) { sum += a; }
+inline Vec3r add_up(const Vec3<Lanes>& a) { return {add_up(a.x), add_up(a.y), add_up(a.z)}; }
+
+template <class... T>
+void set_zero(std::tuple<T...>& a) {
+  std::apply([](auto&... each) { (set_zero(each), ...); }, a);
+}
+template <class... T>
+void add_where(const LaneMask& mask, std::tuple<T...>& sum, const std::tuple<T...>& a) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    (add_where(mask, std::get<k>(sum), std::get<k>(a)), ...);
+  }(std::index_sequence_for<T...>{});
+}
+template <class... T>
+void add(std::tuple<T...>& sum, const std::tuple<T...>& a) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    (add(std::get<k>(sum), std::get<k>(a)), ...);
+  }(std::index_sequence_for<T...>{});
+}
+template <class... T>
+auto add_up(const std::tuple<T...>& a) {
+  return std::apply([](const auto&... each) { return std::tuple{add_up(each)...}; }, a);
+}
+
+// --- loads --------------------------------------------------------------------------------------------------------
+
+/// Lane numbers 0, 1, 2 ...
+inline Lanes lane_numbers() {
+  alignas(64) Real numbers[lane_count];
+  for (int k = 0; k < lane_count; ++k) numbers[k] = Real(k);
+  return Lanes::load_aligned(numbers);
+}
+
+/// lane_count indices from a list of int32.
+inline IndexLanes load_indices(const std::int32_t* list) {
+  if constexpr (std::same_as<LaneIndex, std::int32_t>) {
+    return IndexLanes::load_unaligned(list);
+  } else {
+    alignas(64) LaneIndex wide[lane_count];
+    for (int k = 0; k < lane_count; ++k) wide[k] = list[k];
+    return IndexLanes::load_aligned(wide);
+  }
+}
+
+/// The numbers data[j] of the lanes' indices. xsimd 8.1 picks its element-by-element gather even where the processor has
+/// one (4 times slower in a pass), so the instruction is named here.
+inline Lanes gather(const Real* data, const IndexLanes& j) {
+#if defined(SESSILE_DOUBLE)
+  return Lanes::gather(data, j);
+#elif defined(__AVX512F__)
+  return _mm512_i32gather_ps(j, data, sizeof(Real));
+#elif defined(__AVX2__)
+  return _mm256_i32gather_ps(data, j, sizeof(Real));
+#else
+  return Lanes::gather(data, j);
+#endif
+}
+
+/// Writes those of the lane_count numbers from `from` on whose lane is set in the mask to `to`, in order; returns how many.
+/// May write a whole pack. xsimd 8.1 has no compressing store.
+inline int store_where(const LaneMask& mask, const std::int32_t* from, std::int32_t* to) {
+#if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
+  const __mmask16 bits = mask;
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(bits, _mm512_loadu_si512(from)));
+  return __builtin_popcount(bits);
+#else
+  alignas(64) bool holds[lane_count];
+  mask.store_aligned(holds);
+  int count = 0;
+  for (int k = 0; k < lane_count; ++k) {
+    to[count] = from[k];
+    count += holds[k];
+  }
+  return count;
+#endif
+}
+
+/// Read-only numbers, one per particle: [int] gives one, [IndexLanes] gathers a pack.
+struct View1 {
+  const Real* data = nullptr;
+
+  Real operator[](int i) const { return data[i]; }
+  Lanes operator[](const IndexLanes& j) const { return gather(data, j); }
+};
+
+/// Read-only vectors, one per particle.
+struct View3 {
+  const Real* x = nullptr;
+  const Real* y = nullptr;
+  const Real* z = nullptr;
+
+  Vec3r operator[](int i) const { return {x[i], y[i], z[i]}; }
+  Vec3<Lanes> operator[](const IndexLanes& j) const {
+    return {gather(x, j), gather(y, j), gather(z, j)};
+  }
+};
+
+/// The same value in every lane of whatever a law computes with: numbers for an int index, packs for IndexLanes.
+template <NeighborIndex J>
+using LaneOf = std::conditional_t<std::same_as<J, int>, Real, Lanes>;
+
+template <class T>
+Vec3<T> spread(const Vec3r& a) {
+  return {T(a.x), T(a.y), T(a.z)};
+}
+
+}  // namespace sessile

@@ -1,0 +1,93 @@
+#include "sessile/forces/surface_feature.h"
+
+#include "sessile/core/parallel.h"
+#include "sessile/kernels/adhesion.h"
+#include "sessile/kernels/cohesion.h"
+#include "sessile/neighbors/step_view.h"
+#include "sessile/walls/reaction.h"
+
+namespace sessile {
+namespace {
+
+/// e_ij of (14) and (22): the displacement [m], or its unit vector; 0 for coincident particles.
+template <class T>
+Vec3<T> pair_direction(Direction reading, const Vec3<T>& d, const T& r) {
+  return reading == Direction::unit ? safe_inverse(r) * d : d;
+}
+
+/// -K_ij ( alpha m_j d(r) e_ij + beta (n_i - n_j) ), K_ij = 2 rho0^2/(rho_i^2 + rho_j^2)   (14, 18, 20, 21)
+/// With unequal masses the area term takes their mean over m_i, so that it stays antisymmetric. Coincident
+/// particles exert nothing on each other.
+struct TensionLaw {
+  StepView s;
+  CohesionSpline cohesion;
+  Real alpha_rho0;
+  Real beta;
+  Direction reading;
+
+  template <NeighborIndex J>
+  auto operator()(int i, const J& j) const {
+    using T = LaneOf<J>;
+    const auto d = s.to_fluid(i, j);
+    const T r = length(d);
+    const T mj = s.m[j], rho_j = s.rho[j];
+    const T K = T(Real(2)) / (T(s.rho[i] * s.rho[i]) + rho_j * rho_j);
+    const T mean_mass = T(Real(0.5)) * (T(Real(1)) + mj * T(1 / s.m[i]));
+    const T area = select(r > T(Real(0)), T(beta) * mean_mass, T(Real(0)));
+    return -K * (T(alpha_rho0) * mj * cohesion.value(r) * pair_direction(reading, d, r) +
+                 area * (spread<T>(s.normal[i]) - s.normal[j]));
+  }
+};
+
+/// -eta psi_b y(r) e_ib, times the solid's own factor   (22, 23)
+struct AdhesionLaw {
+  StepView s;
+  AdhesionSpline adhesion;
+  Real eta_rho0;
+  Direction reading;
+
+  template <NeighborIndex J>
+  auto operator()(int i, const J& b) const {
+    using T = LaneOf<J>;
+    const auto d = s.to_wall(i, b);
+    const T r = length(d);
+    return T(-eta_rho0) * s.walls.adhesion[b] * s.walls.psi[b] * adhesion.value(r) * pair_direction(reading, d, r);
+  }
+};
+
+struct SurfaceFeatureKernel {
+  TensionLaw tension;
+  AdhesionLaw adhesion;
+  Array3& a;
+
+  void operator()(int i) const {
+    const auto place = static_cast<std::size_t>(i);
+    a.set(place, a[place] + tension.s.near.sum(i, [&](auto j) { return tension(i, j); }) +
+                     tension.s.near_walls.sum(i, [&](auto b) { return adhesion(i, b); }));
+  }
+};
+
+AdhesionLaw adhesion_law(const SurfaceFeature& model, const StepView& s) {
+  return {s, AdhesionSpline(s.units.support_radius, s.units.spacing),
+          static_cast<Real>(model.adhesion * s.units.rest_density), model.direction};
+}
+
+}  // namespace
+
+void SurfaceFeature::add_acceleration(const StepView& s, Array3& acceleration) const {
+  const TensionLaw tension_law{s, CohesionSpline(s.units.support_radius, s.units.spacing),
+                               static_cast<Real>(cohesion * s.units.rest_density), static_cast<Real>(area_minimisation),
+                               direction};
+  for_each(s.n, SurfaceFeatureKernel{tension_law, adhesion_law(*this, s), acceleration});
+}
+
+void SurfaceFeature::add_reaction(const StepView& s, const Walls& walls, std::span<SolidForce> forces) const {
+  sessile::add_reaction(s, walls, adhesion_law(*this, s), forces);
+}
+
+double SurfaceFeature::tension(double rest_density, double h) const {
+  const double unit = cohesion * rest_density * rest_density * h * h;
+  return direction == Direction::unit ? 21.0 / 7040 * unit : 271.0 / 135168 * unit * h;
+}
+
+}  // namespace sessile

@@ -1,0 +1,73 @@
+#include "sessile/forces/viscosity.h"
+
+#include "sessile/core/parallel.h"
+#include "sessile/neighbors/step_view.h"
+#include "sessile/walls/reaction.h"
+
+namespace sessile {
+namespace {
+
+/// (x . grad W)/(r^2 + 0.01 h^2) [1/m^2], in units of 1/dx^3: the second derivative along the pair.
+struct MorrisFactor {
+  CubicSpline W;
+  Real softening;  // 0.01 h^2 [m^2]
+
+  explicit MorrisFactor(const StepView& s)
+      : W(s.W), softening(static_cast<Real>(0.01 * s.units.support_radius * s.units.support_radius)) {}
+
+  template <class T>
+  T operator()(const Vec3<T>& d) const {
+    const T r2 = squared_length(d);
+    return r2 * W.slope_over_r(sqrt(r2)) / (r2 + T(softening));
+  }
+};
+
+struct FluidLaw {
+  StepView s;
+  Real nu;  // mu / rho0 [m^2/s]
+  MorrisFactor factor;
+
+  template <NeighborIndex J>
+  auto operator()(int i, const J& j) const {
+    using T = LaneOf<J>;
+    return T(2 * nu / s.rho[i]) * s.m[j] / s.rho[j] * factor(s.to_fluid(i, j)) * (spread<T>(s.v[i]) - s.v[j]);
+  }
+};
+
+struct WallLaw {
+  StepView s;
+  MorrisFactor factor;
+
+  template <NeighborIndex J>
+  auto operator()(int i, const J& b) const {
+    using T = LaneOf<J>;
+    return T(2 / s.rho[i]) * s.walls.viscosity[b] * s.walls.psi[b] * factor(s.to_wall(i, b)) *
+           (spread<T>(s.v[i]) - s.walls.v[b]);
+  }
+};
+
+struct ViscosityKernel {
+  FluidLaw fluid;
+  WallLaw wall;
+  Array3& a;
+
+  void operator()(int i) const {
+    const auto place = static_cast<std::size_t>(i);
+    a.set(place, a[place] + fluid.s.near.sum(i, [&](auto j) { return fluid(i, j); }) +
+                     fluid.s.near_walls.sum(i, [&](auto b) { return wall(i, b); }));
+  }
+};
+
+}  // namespace
+
+void add_viscosity(const StepView& view, double viscosity, Array3& acceleration) {
+  const MorrisFactor factor(view);
+  const auto nu = static_cast<Real>(viscosity / view.units.rest_density);
+  for_each(view.n, ViscosityKernel{{view, nu, factor}, {view, factor}, acceleration});
+}
+
+void add_viscosity_reaction(const StepView& view, const Walls& walls, std::span<SolidForce> forces) {
+  add_reaction(view, walls, WallLaw{view, MorrisFactor(view)}, forces);
+}
+
+}  // namespace sessile

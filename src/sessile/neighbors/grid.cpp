@@ -1,0 +1,215 @@
+#include "sessile/neighbors/grid.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "sessile/core/error.h"
+#include "sessile/core/parallel.h"
+#include "sessile/core/radix_sort.h"
+
+namespace sessile {
+namespace {
+
+// A cell is this much longer than the support radius: pairs closer than it in float arithmetic then never lie two
+// cells apart, whatever the rounding of their cells' numbers.
+constexpr double cell_margin = 1 + 1e-6;
+
+// Cells beyond this are not told apart; no float position in metres reaches it with cells above 1e-20 m.
+constexpr double farthest_cell = 4e18;
+
+std::int64_t wrap(std::int64_t cell, std::int64_t ring) { return ring == 0 ? cell : ((cell % ring) + ring) % ring; }
+
+int bits_for(std::int64_t count) { return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count) + 1)); }
+
+}  // namespace
+
+GridShape GridShape::make(double support_radius, const Vec3d& origin, const Vec3d& period) {
+  const auto axis = [&](double start, double length) {
+    GridAxis made{start, support_radius * cell_margin, 0, 0};
+    if (length > 0) {
+      made.ring = static_cast<std::int64_t>(length / made.cell);
+      made.cell = length / static_cast<double>(made.ring);
+    }
+    made.inverse_cell = 1 / made.cell;
+    return made;
+  };
+  return {{axis(origin.x, period.x), axis(origin.y, period.y), axis(origin.z, period.z)}};
+}
+
+std::array<std::int64_t, 3> GridShape::cell_of(const Vec3r& point) const {
+  const auto along = [](const GridAxis& axis, Real x) {
+    const double place = std::floor((static_cast<double>(x) - axis.origin) * axis.inverse_cell);
+    const auto cell = static_cast<std::int64_t>(std::clamp(place, -farthest_cell, farthest_cell));
+    return axis.ring == 0 ? cell : wrap(cell, axis.ring);
+  };
+  return {along(axes[0], point.x), along(axes[1], point.y), along(axes[2], point.z)};
+}
+
+std::int64_t Grid::AxisNumbers::number_at_or_after(std::int64_t cell) const {
+  if (occupied.empty()) return std::clamp(cell - first + 1, std::int64_t{1}, count + 1);
+  const auto found = std::lower_bound(occupied.begin(), occupied.end(), cell);
+  return found == occupied.end() ? count + 1 : numbers[static_cast<std::size_t>(found - occupied.begin())];
+}
+
+std::int64_t Grid::AxisNumbers::number_at_or_before(std::int64_t cell) const {
+  if (occupied.empty()) return std::clamp(cell - first + 1, std::int64_t{0}, count);
+  const auto found = std::upper_bound(occupied.begin(), occupied.end(), cell);
+  return found == occupied.begin() ? 0 : numbers[static_cast<std::size_t>(found - occupied.begin()) - 1];
+}
+
+void Grid::AxisNumbers::close_gaps(std::vector<std::int64_t> cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  occupied = std::move(cells);
+  numbers.resize(occupied.size());
+  count = 0;
+  for (std::size_t k = 0; k < occupied.size(); ++k) {
+    count += k > 0 && occupied[k] - occupied[k - 1] > 1 ? 2 : 1;
+    numbers[k] = count;
+  }
+  bits = bits_for(count);
+}
+
+void Grid::number_axes(const Array3& points) {
+  struct Bounds {
+    std::array<std::int64_t, 3> low, high;
+  };
+  constexpr auto least = std::numeric_limits<std::int64_t>::min();
+  constexpr auto most = std::numeric_limits<std::int64_t>::max();
+  const Bounds bounds = reduce(
+      points.size(), Bounds{{most, most, most}, {least, least, least}},
+      [&](int i) {
+        const auto cell = shape_.cell_of(points[static_cast<std::size_t>(i)]);
+        return Bounds{cell, cell};
+      },
+      [](Bounds a, const Bounds& b) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          a.low[k] = std::min(a.low[k], b.low[k]);
+          a.high[k] = std::max(a.high[k], b.high[k]);
+        }
+        return a;
+      });
+  const auto total_bits = [&] { return axes_[0].bits + axes_[1].bits + axes_[2].bits; };
+  for (std::size_t k = 0; k < 3; ++k) {
+    axes_[k] = {};
+    axes_[k].first = bounds.low[k];
+    axes_[k].count = bounds.high[k] - bounds.low[k] + 1;
+    axes_[k].bits = bits_for(axes_[k].count);
+  }
+  if (total_bits() < 64) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<std::int64_t> cells(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) cells[i] = shape_.cell_of(points[i])[k];
+    axes_[k].close_gaps(std::move(cells));
+  }
+  if (total_bits() >= 64) throw RunError("the particles are scattered too far and wide to sort them into cells");
+}
+
+std::uint64_t Grid::key(std::int64_t x, std::int64_t y, std::int64_t z) const {
+  return ((static_cast<std::uint64_t>(z) << axes_[1].bits | static_cast<std::uint64_t>(y)) << axes_[0].bits) |
+         static_cast<std::uint64_t>(x);
+}
+
+void Grid::build(const Array3& points, const GridShape& shape) {
+  shape_ = shape;
+  keys_.clear();
+  begins_.assign(1, 0);
+  order_.resize(points.size());
+  if (points.size() == 0) return;
+  number_axes(points);
+
+  items_.resize(points.size());
+  for_each(points.size(), [&](int i) {
+    const auto place = static_cast<std::size_t>(i);
+    const auto cell = shape_.cell_of(points[place]);
+    items_[place] = {key(axes_[0].number_at_or_after(cell[0]), axes_[1].number_at_or_after(cell[1]),
+                         axes_[2].number_at_or_after(cell[2])),
+                     i};
+  });
+  radix_sort(items_, items_scratch_, axes_[0].bits + axes_[1].bits + axes_[2].bits);
+
+  // Cells start where the key changes: count them block by block, then write each block's at its own place.
+  const std::size_t n = items_.size();
+  const auto starts_cell = [&](std::size_t k) { return k == 0 || items_[k].key != items_[k - 1].key; };
+  std::vector<std::size_t> first_cell(static_cast<std::size_t>(block_count(n)) + 1, 0);
+  for_each_block(n, [&](std::ptrdiff_t block, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::size_t cells = 0;
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) cells += starts_cell(k);
+    first_cell[static_cast<std::size_t>(block) + 1] = cells;
+  });
+  for (std::size_t b = 1; b < first_cell.size(); ++b) first_cell[b] += first_cell[b - 1];
+  keys_.resize(first_cell.back());
+  begins_.resize(first_cell.back() + 1);
+  begins_.back() = static_cast<std::int32_t>(n);
+  for_each_block(n, [&](std::ptrdiff_t block, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::size_t cell = first_cell[static_cast<std::size_t>(block)];
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      order_[k] = items_[k].place;
+      if (!starts_cell(k)) continue;
+      keys_[cell] = items_[k].key;
+      begins_[cell] = static_cast<std::int32_t>(k);
+      ++cell;
+    }
+  });
+}
+
+std::size_t Grid::seek(std::uint64_t key, std::size_t hint) const {
+  // Gallop from the hint: successive searches in a row of cells are a few places apart.
+  const auto at = [&](std::size_t place) { return keys_.begin() + static_cast<std::ptrdiff_t>(place); };
+  std::size_t low = std::min(hint, keys_.size()), high = low, stride = 1;
+  while (high < keys_.size() && keys_[high] < key) {
+    low = high + 1;
+    high = std::min(keys_.size(), high + stride);
+    stride *= 2;
+  }
+  stride = 1;
+  while (low > 0 && low <= keys_.size() && keys_[low - 1] >= key) {
+    high = low - 1;
+    low -= std::min(low, stride);
+    stride *= 2;
+  }
+  return static_cast<std::size_t>(std::lower_bound(at(low), at(high), key) - keys_.begin());
+}
+
+int Grid::around(const std::array<std::int64_t, 3>& cell, Cursor& cursor, std::span<PlaceRange, 18> ranges) const {
+  if (keys_.empty()) return 0;
+  const std::array<std::int64_t, 3> ring{shape_.axes[0].ring, shape_.axes[1].ring, shape_.axes[2].ring};
+  // Stretches of cells along x: one, or two where a periodic face cuts the row.
+  std::array<std::array<std::int64_t, 2>, 2> stretches{{{cell[0] - 1, cell[0] + 1}, {0, -1}}};
+  int stretch_count = 1;
+  if (ring[0] > 0 && (cell[0] == 0 || cell[0] == ring[0] - 1)) {
+    const bool low_face = cell[0] == 0;
+    stretches[0] = {low_face ? 0 : cell[0] - 1, low_face ? 1 : cell[0]};
+    stretches[1] = low_face ? std::array{ring[0] - 1, ring[0] - 1} : std::array<std::int64_t, 2>{0, 0};
+    stretch_count = 2;
+  }
+
+  int found = 0;
+  for (int row = 0; row < 9; ++row) {
+    const std::int64_t y = wrap(cell[1] + row % 3 - 1, ring[1]);
+    const std::int64_t z = wrap(cell[2] + row / 3 - 1, ring[2]);
+    const std::int64_t ny = axes_[1].number_at_or_after(y), nz = axes_[2].number_at_or_after(z);
+    if (ny != axes_[1].number_at_or_before(y) || nz != axes_[2].number_at_or_before(z)) continue;
+    for (int s = 0; s < stretch_count; ++s) {
+      const std::int64_t low = axes_[0].number_at_or_after(stretches[static_cast<std::size_t>(s)][0]);
+      const std::int64_t high = axes_[0].number_at_or_before(stretches[static_cast<std::size_t>(s)][1]);
+      if (low > high) continue;
+      const std::size_t begin = seek(key(low, ny, nz), cursor.hints[static_cast<std::size_t>(row)]);
+      std::size_t end = begin;
+      while (end < keys_.size() && keys_[end] <= key(high, ny, nz)) ++end;
+      cursor.hints[static_cast<std::size_t>(row)] = begin;
+      if (begin == end) continue;
+      ranges[static_cast<std::size_t>(found++)] = {begins_[begin], begins_[end]};
+    }
+  }
+  return found;
+}
+
+std::size_t Grid::bytes() const {
+  return keys_.capacity() * sizeof(keys_[0]) + begins_.capacity() * sizeof(begins_[0]) +
+         order_.capacity() * sizeof(order_[0]) + (items_.capacity() + items_scratch_.capacity()) * sizeof(items_[0]);
+}
+
+}  // namespace sessile

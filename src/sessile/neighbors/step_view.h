@@ -1,0 +1,63 @@
+#pragma once
+
+#include "sessile/core/array.h"
+#include "sessile/core/lanes.h"
+#include "sessile/core/space.h"
+#include "sessile/core/units.h"
+#include "sessile/kernels/cubic_spline.h"
+#include "sessile/neighbors/neighbor_view.h"
+#include "sessile/particles/particles.h"
+#include "sessile/walls/walls.h"
+
+namespace sessile {
+
+inline View1 view(const Array<Real>& a) { return {a.data()}; }
+inline View3 view(const Array3& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
+
+/// What a pair law may read: particles, boundary particles and neighbours at one moment. Internal; costs nothing to copy.
+/// Masses and psi are in units of rho0 dx^3, densities of rho0, kernels of 1/dx^3, pressures p / rho0 [m^2/s^2].
+struct StepView {
+  struct Samples {
+    View3 x, v;
+    View1 psi, adhesion, viscosity;
+  };
+
+  std::size_t n = 0;
+  Units units;
+  CubicSpline W;
+  Space space;
+  View3 x, v;
+  View1 m;
+  View1 rho;      // valid once compute_density has run
+  View3 normal;   // valid once compute_normals has run
+  NeighborView near;        // fluid around a fluid particle
+  NeighborView near_walls;  // boundary particles around a fluid particle
+  Samples walls;
+
+  StepView() = default;
+  StepView(const Units& in, const Space& where, const Particles& particles, const Walls& solids,
+           const NeighborList& fluid, const NeighborList& boundary)
+      : n(particles.size()),
+        units(in),
+        W(in.support_radius, in.spacing),
+        space(where),
+        x(view(particles.position)),
+        v(view(particles.velocity)),
+        m(view(particles.mass)),
+        near(fluid),
+        near_walls(boundary),
+        walls{view(solids.position), view(solids.velocity), view(solids.psi), view(solids.adhesion),
+              view(solids.viscosity)} {}
+
+  /// x_i - x_j [m] from i to a fluid particle, and to a boundary particle.
+  template <NeighborIndex J>
+  auto to_fluid(int i, const J& j) const {
+    return space.displacement(spread<LaneOf<J>>(x[i]), x[j]);
+  }
+  template <NeighborIndex J>
+  auto to_wall(int i, const J& b) const {
+    return space.displacement(spread<LaneOf<J>>(x[i]), walls.x[b]);
+  }
+};
+
+}  // namespace sessile

@@ -1,0 +1,97 @@
+#include "sessile/output/file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "sessile/core/error.h"
+
+namespace sessile {
+namespace {
+
+namespace fs = std::filesystem;
+
+FileError failure(std::string_view what, const fs::path& path, int error) {
+  return FileError(fmt::format("cannot {} {}: {}", what, path.string(), std::generic_category().message(error)));
+}
+
+/// Opens for writing, or returns -1 with errno. Descriptors do not leak into programs that are started meanwhile.
+int open_for_writing(const fs::path& path, int flags) {
+  int descriptor;
+  do {
+    descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | flags, 0666);
+  } while (descriptor < 0 && errno == EINTR);
+  return descriptor;
+}
+
+/// Writes all bytes. Returns 0 or the error.
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(descriptor, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    if (n == 0) return ENOSPC;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return 0;
+}
+
+/// Asks the disk to keep what was written. Returns 0 or the error; a file system that knows no sync is no error.
+int sync(int descriptor) {
+  while (::fsync(descriptor) != 0) {
+    if (errno == EINTR) continue;
+    return errno == EINVAL || errno == ENOTSUP || errno == ENOSYS ? 0 : errno;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void write_whole(const fs::path& path, std::string_view bytes) {
+  // The name is the same at every attempt, so that what a killed run left behind is used up by the next one.
+  const fs::path temporary = path.parent_path() / fmt::format(".{}.part", path.filename().string());
+  const int descriptor = open_for_writing(temporary, 0);
+  if (descriptor < 0) throw failure("write", path, errno);
+  int error = write_all(descriptor, bytes);
+  if (error == 0) error = sync(descriptor);
+  // Some file systems report a full disk only here. After EINTR the descriptor is closed all the same.
+  if (::close(descriptor) != 0 && error == 0 && errno != EINTR) error = errno;
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    throw failure("write", path, error);
+  }
+}
+
+void create_output_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  std::error_code unknown;  // where it cannot even be asked, the first error tells why
+  const bool is_folder = fs::is_directory(path, unknown);
+  if (!is_folder && !error) error = std::make_error_code(std::errc::not_a_directory);
+  if (!is_folder) throw failure("create the folder", path, error.value());
+  if (::access(path.c_str(), W_OK | X_OK) != 0) throw failure("write into the folder", path, errno);
+}
+
+LineFile::LineFile(fs::path path) : path_(std::move(path)), descriptor_(open_for_writing(path_, O_APPEND)) {
+  if (descriptor_ < 0) throw failure("write", path_, errno);
+}
+
+LineFile::~LineFile() { ::close(descriptor_); }
+
+void LineFile::append(std::string_view line) {
+  struct stat before {};
+  const bool known = ::fstat(descriptor_, &before) == 0;
+  if (const int error = write_all(descriptor_, line)) {
+    // Half a line would be read as a line of wrong numbers. When even this fails there is no more to be done.
+    if (known && S_ISREG(before.st_mode)) static_cast<void>(!::ftruncate(descriptor_, before.st_size));
+    throw failure("write", path_, error);
+  }
+}
+
+}  // namespace sessile

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace sessile {
+
+/// Writes a file whole or not at all: under a temporary name in the same folder, then synced and renamed over `path`.
+/// Throws FileError with the path and the system's reason; the old file, if any, then stays and nothing else is left.
+void write_whole(const std::filesystem::path& path, std::string_view bytes);
+
+/// Makes the folder, and those above it, if they are missing.
+/// Throws FileError when that fails, when `path` is something else, or when nothing may be written into it.
+void create_output_folder(const std::filesystem::path& path);
+
+/// A file that grows by whole lines. What has been appended stays good whenever the program ends.
+class LineFile {
+ public:
+  /// Opens `path` anew and empty. Throws FileError.
+  explicit LineFile(std::filesystem::path path);
+  ~LineFile();
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+
+  /// Hands one line, which ends in a newline, to the system in one piece.
+  /// Throws FileError when it could not be written in full; the part that was is taken back.
+  void append(std::string_view line);
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+}  // namespace sessile

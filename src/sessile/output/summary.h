@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "sessile/simulation.h"
+
+namespace sessile {
+
+/// How a run ended.
+enum class RunStatus { done, interrupted, failed };
+
+/// What only the program that runs a simulation knows.
+struct RunFacts {
+  RunStatus status = RunStatus::done;
+  std::string message;       ///< what went wrong, when it failed
+  std::string version;       ///< of the program
+  std::string scene_json;    ///< the resolved scene as JSON text
+  double wall_time = 0;      ///< of the whole run [s]
+  double output_time = 0;    ///< that the simulation waited for snapshots, frames and stats [s]
+  double measures_time = 0;  ///< spent in measure() [s]
+  double writer_time = 0;    ///< that the writer's own thread worked meanwhile [s]
+  std::int64_t frames = 0;   ///< written whole
+};
+
+/// What the simulation knows at the end of a run.
+struct SimulationFacts {
+  std::int64_t particles = 0;       ///< at the end
+  std::int64_t wall_particles = 0;  ///< samples of all solids
+  double time = 0;                  ///< simulated [s]
+  Totals totals{};
+  StageTimes stages{};
+  std::size_t bytes = 0;  ///< own arrays
+};
+
+SimulationFacts simulation_facts(const Simulation& simulation);
+
+/// Greatest memory the process has held so far [bytes]; 0 where the system does not tell.
+std::size_t peak_memory();
+
+/// Text of summary.json. A scene that is no valid JSON is kept as text.
+std::string summary_json(const RunFacts& run, const SimulationFacts& simulation);
+
+/// Writes summary.json whole or not at all. Throws FileError.
+void write_summary(const std::filesystem::path& path, const RunFacts& run, const SimulationFacts& simulation);
+
+}  // namespace sessile

@@ -1,0 +1,76 @@
+#include "sessile/particles/emitter.h"
+
+#include <algorithm>
+
+#include "sessile/core/parallel.h"
+#include "sessile/scene/sampling.h"
+
+namespace sessile {
+
+LayerSource::LayerSource(const Emitter& emitter, double spacing, const Space& space)
+    : emitter_(emitter), space_(space), clearance_(static_cast<Real>(0.9 * spacing)) {
+  std::sort(emitter_.times.begin(), emitter_.times.end());
+  Array3 unsorted;
+  for (const Vec3d& place : layer(emitter, spacing)) unsorted.push_back(vec_cast<Real>(place));
+  grid_.build(unsorted, GridShape::make(spacing, {}, vec_cast<double>(space.period)));
+  for (const std::int32_t k : grid_.order()) places_.push_back(unsorted[static_cast<std::size_t>(k)]);
+  const auto ends = [&](const Array<Real>& a, Real& low, Real& high) {
+    const auto [least, most] = std::minmax_element(a.begin(), a.end());
+    low = *least - clearance_;
+    high = *most + clearance_;
+  };
+  ends(places_.x, lower_.x, upper_.x);
+  ends(places_.y, lower_.y, upper_.y);
+  ends(places_.z, lower_.z, upper_.z);
+}
+
+std::optional<double> LayerSource::due() const {
+  if (emitter_.count && next_ >= *emitter_.count) return {};
+  double time = 0;
+  if (emitter_.interval) {
+    time = emitter_.start + static_cast<double>(next_) * *emitter_.interval;
+  } else {
+    if (next_ >= static_cast<std::int64_t>(emitter_.times.size())) return {};
+    time = emitter_.times[static_cast<std::size_t>(next_)];
+  }
+  if (emitter_.end && time > *emitter_.end) return {};
+  return time;
+}
+
+bool LayerSource::taken(const Particles& particles) const {
+  const auto close = [&](int i) {
+    const Vec3r x = particles.position[static_cast<std::size_t>(i)];
+    // Most particles are far away; across a periodic face the box says nothing.
+    if (!space_.periodic && (x.x < lower_.x || x.x > upper_.x || x.y < lower_.y || x.y > upper_.y || x.z < lower_.z ||
+                             x.z > upper_.z)) {
+      return false;
+    }
+    Grid::Cursor cursor;
+    std::array<PlaceRange, 18> ranges;
+    const int found = grid_.around(grid_.shape().cell_of(x), cursor, ranges);
+    for (int k = 0; k < found; ++k) {
+      const PlaceRange range = ranges[static_cast<std::size_t>(k)];
+      for (auto place = range.begin; place < range.end; ++place) {
+        const Vec3r d = space_.displacement(x, places_[static_cast<std::size_t>(place)]);
+        if (squared_length(d) < clearance_ * clearance_) return true;
+      }
+    }
+    return false;
+  };
+  return reduce(particles.size(), false, close, [](bool a, bool b) { return a || b; });
+}
+
+Emission LayerSource::emit(double time, Particles& particles, std::int64_t& next_id) {
+  const std::optional<double> when = due();
+  if (!when || time < *when) return Emission::not_due;
+  if (taken(particles)) return std::exchange(waiting_, true) ? Emission::waiting : Emission::began_to_wait;
+  const Vec3r velocity = vec_cast<Real>(emitter_.velocity);
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    particles.add(places_[k], velocity, static_cast<Real>(emitter_.mass_factor), next_id++);
+  }
+  ++next_;
+  waiting_ = false;
+  return Emission::emitted;
+}
+
+}  // namespace sessile

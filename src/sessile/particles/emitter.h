@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "sessile/core/array.h"
+#include "sessile/core/space.h"
+#include "sessile/neighbors/grid.h"
+#include "sessile/particles/particles.h"
+#include "sessile/scene/scene.h"
+
+namespace sessile {
+
+/// What became of an emitter's next layer.
+enum class Emission { not_due, emitted, began_to_wait, waiting };
+
+/// An emitter at work: the places of its layer, and which layer comes next.
+class LayerSource {
+ public:
+  LayerSource(const Emitter& emitter, double spacing, const Space& space);
+
+  /// Lets in the next layer when its time has come and its place is free, that is, no particle is closer than 0.9 dx
+  /// to any of its places. Ids count on from `next_id`.
+  Emission emit(double time, Particles& particles, std::int64_t& next_id);
+
+  const Array3& places() const { return places_; }
+  std::int64_t emitted_layers() const { return next_; }
+
+ private:
+  std::optional<double> due() const;
+  bool taken(const Particles& particles) const;
+
+  Emitter emitter_;
+  Space space_;
+  Real clearance_;
+  Array3 places_;  // in the order of grid_
+  Grid grid_;
+  Vec3r lower_, upper_;  // box around the places, grown by the clearance
+  std::int64_t next_ = 0;
+  bool waiting_ = false;
+};
+
+}  // namespace sessile

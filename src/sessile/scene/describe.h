@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sessile/scene/read.h"
+#include "sessile/scene/scene.h"
+
+namespace sessile {
+
+/// One parameter of a scene as it will run.
+struct ResolvedParameter {
+  std::string path;    ///< e.g. "forces[0].cohesion"
+  std::string value;   ///< as JSON; what an absent one stands for, in words
+  std::string unit;    ///< SI; "" for a pure number, a word or a text
+  bool given = false;  ///< by the file or an override; else the default
+};
+
+/// Every parameter of the scene, in the order of its declaration.
+std::vector<ResolvedParameter> parameters(const ResolvedScene& resolved);
+
+/// The parameters as a table for people: path, value, unit, given or default.
+std::string describe(const ResolvedScene& resolved);
+
+/// The scene as JSON that read_scene() reads back to the same scene; every parameter stands in it.
+std::string to_json(const Scene& scene);
+
+}  // namespace sessile

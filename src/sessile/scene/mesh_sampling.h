@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sessile/scene/mesh.h"
+
+namespace sessile {
+
+/// Places [m] of samples on a mesh, about one per spacing^2, evenly spread whatever the triangles: corners first, then
+/// a fine raster of each triangle, of which a place is taken when no sample is nearer than 0.84 spacing. Further
+/// layers of a closed mesh lie inside it, parallel to its triangles. The same mesh gives the same samples.
+std::vector<Vec3d> sample_mesh(const TriangleMesh& mesh, double spacing, int layers, const std::string& who);
+
+}  // namespace sessile

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+
+#include "sessile/scene/fault.h"
+#include "sessile/scene/scene.h"
+
+namespace sessile {
+
+/// A scene, and what its file said of it.
+struct ResolvedScene {
+  Scene scene;
+  std::set<std::string> given;                ///< paths of the values that the file or an override gives
+  std::map<std::string, std::string> places;  ///< by path: "tablet.json:12", or "--set time.end"
+
+  /// The fault as a line for people, with the place of its parameter or of the nearest group around it:
+  /// `tablet.json:12: forces[0].cohesion: must be at least 0, found -1`.
+  std::string locate(const Fault& fault) const;
+};
+
+/// Reads a scene file and puts overrides, `path=value` each, over it. A value is read as JSON, or else taken as a text;
+/// paths of meshes are relative to the scene file.
+/// Throws SceneError with every fault of the file, of the overrides and of the scene they make (see validate.h).
+ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+
+/// The scene alone.
+Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+
+}  // namespace sessile

@@ -1,0 +1,215 @@
+#include "sessile/simulation.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "sessile/core/error.h"
+#include "sessile/core/parallel.h"
+#include "sessile/forces/viscosity.h"
+#include "sessile/neighbors/step_view.h"
+#include "sessile/particles/density.h"
+#include "sessile/pressure/pressure_force.h"
+#include "sessile/time/time_step.h"
+
+namespace sessile {
+namespace {
+
+/// Adds the wall time of its own life to a stage.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double greatest_length(const Array3& a) {
+  return std::sqrt(maximum(a.size(), [&](int i) {
+    return static_cast<double>(squared_length(a[static_cast<std::size_t>(i)]));
+  }));
+}
+
+}  // namespace
+
+// Algorithm 1 of the paper. Its first lines, neighbours, densities and normals of x(t), closed the step before (and the
+// constructor), so that whoever looks between two steps sees them up to date.
+void Simulation::step() {
+  accelerate();                         // all forces but pressure
+  const double dt = next_time_step();   // the largest that every bound allows
+  predict_velocities(dt);               // v* = v + dt a
+  solve_pressure(dt);                   // until rho(t + dt) <= rho0 on average
+  move(dt);                             // v = v* + dt a^p,  x = x + dt v
+  time_ += dt;
+  take_out_what_left();
+  let_in_new_layers();
+  look_around();                        // neighbours, densities, normals of x(t + dt)
+  ++totals_.steps;
+}
+
+void Simulation::look_around() {
+  {
+    const Stopwatch watch(stage_times_.neighbors);
+    const auto h = static_cast<Real>(units_.support_radius);
+    grid_.build(particles_.position, grid_shape_);
+    particles_.reorder(grid_.order());
+    fluid_neighbors_.build(particles_.position, particles_.position, grid_, space_, h, true);
+    wall_neighbors_.build(particles_.position, walls_.position, wall_grid_, space_, h, false);
+  }
+  const Stopwatch watch(stage_times_.density);
+  compute_density(view(), density_);
+  compute_normals(view(), normal_);
+}
+
+void Simulation::accelerate() {
+  const Stopwatch watch(stage_times_.forces);
+  const StepView s = view();
+  walls_.forces.assign(walls_.forces.size(), {});
+  acceleration_.assign(s.n, vec_cast<Real>(scene_.gravity));
+  add_viscosity(s, scene_.fluid.viscosity, acceleration_);
+  add_viscosity_reaction(s, walls_, walls_.forces);
+  for (const Force& force : scene_.forces) {
+    std::visit(
+        [&](const auto& model) {
+          model.add_acceleration(s, acceleration_);
+          model.add_reaction(s, walls_, walls_.forces);
+        },
+        force);
+  }
+}
+
+double Simulation::next_time_step() {
+  MotionScale scale;
+  scale.spacing = units_.spacing;
+  scale.rest_density = units_.rest_density;
+  scale.speed = greatest_length(particles_.velocity);
+  scale.acceleration = greatest_length(acceleration_);
+  scale.viscosity = scene_.fluid.viscosity;
+  for (const Real nu : walls_.viscosity) {
+    scale.viscosity = std::max(scale.viscosity, static_cast<double>(nu) * units_.rest_density);
+  }
+  for (const Force& force : scene_.forces) {
+    scale.tension += std::visit(
+        [&](const auto& model) { return model.tension(units_.rest_density, units_.support_radius); }, force);
+  }
+  const TimeStep chosen = choose_time_step(scene_.time, scale, last_step_.dt);
+  last_step_.dt = chosen.dt;
+  last_step_.bound = chosen.bound;
+  last_step_.overruled = chosen.overruled;
+  totals_.overruled_steps += !chosen.overruled.empty();
+  return chosen.dt;
+}
+
+void Simulation::predict_velocities(double dt) {
+  const Stopwatch watch(stage_times_.integration);
+  const auto step = static_cast<Real>(dt);
+  for_each(particles_.size(), [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    particles_.velocity.set(k, particles_.velocity[k] + step * acceleration_[k]);
+  });
+}
+
+void Simulation::solve_pressure(double dt) {
+  const Stopwatch watch(stage_times_.pressure);
+  const PressureResult result =
+      solve(scene_.pressure, view(), particles_.velocity, dt, particles_.pressure, pressure_);
+  add_pressure_reaction(view(), pressure_.stress, walls_, walls_.forces);
+  last_step_.iterations = result.iterations;
+  last_step_.converged = result.converged;
+  last_step_.predicted_error = result.error;
+  last_step_.predicted_error_max = result.error_max;
+  totals_.iterations += result.iterations;
+  totals_.unconverged_solves += !result.converged;
+}
+
+void Simulation::move(double dt) {
+  const Stopwatch watch(stage_times_.integration);
+  const auto step = static_cast<Real>(dt);
+  // A particle without a wall sample in reach, and not faster than dx a step, cannot have met a solid whose samples lie
+  // at most dx apart.
+  const double far = units_.spacing * units_.spacing;
+  const auto passed_a_solid = [&](std::size_t k, const Vec3d& from, const Vec3d& to) {
+    if (wall_neighbors_.count(k) == 0 && squared_length(to - from) < far && !coarse_walls_) return false;
+    return std::any_of(solids_.begin(), solids_.end(), [&](const auto& solid) { return solid.crossed(from, to); });
+  };
+  struct Events {
+    std::int64_t passages = 0, not_finite = 0;
+  };
+  const Events events = reduce(
+      particles_.size(), Events{},
+      [&](int i) {
+        const auto k = static_cast<std::size_t>(i);
+        const Vec3r v = particles_.velocity[k] + step * pressure_.acceleration[k];
+        const Vec3r from = particles_.position[k], to = from + step * v;
+        particles_.velocity.set(k, v);
+        particles_.position.set(k, to);
+        if (!std::isfinite(to.x) || !std::isfinite(to.y) || !std::isfinite(to.z)) return Events{0, 1};
+        return Events{passed_a_solid(k, vec_cast<double>(from), vec_cast<double>(to)) ? 1 : 0, 0};
+      },
+      [](const Events& a, const Events& b) {
+        return Events{a.passages + b.passages, a.not_finite + b.not_finite};
+      });
+  totals_.lost += events.passages + events.not_finite;
+  if (events.not_finite > 0) {
+    throw RunError(fmt::format("{} of {} particles have no finite position after the step of {:g} s at {:g} s: the step "
+                               "is too long for these forces",
+                               events.not_finite, particles_.size(), dt, time_));
+  }
+}
+
+void Simulation::take_out_what_left() {
+  if (!scene_.domain) return;
+  const Stopwatch watch(stage_times_.integration);
+  const Domain& box = *scene_.domain;
+  const Vec3r low = vec_cast<Real>(box.min), high = vec_cast<Real>(box.max);
+  const auto into_period = [](Edge edge, Real& x, Real start, Real end) {
+    if (edge != Edge::periodic || (x >= start && x < end)) return;
+    x -= (end - start) * std::floor((x - start) / (end - start));
+    if (x < start || x >= end) x = start;  // rounding can leave it on the far face
+  };
+  const auto outside = [](Edge edge, Real x, Real start, Real end) {
+    return edge == Edge::open && (x < start || x > end);
+  };
+  std::vector<std::int32_t> staying;
+  const std::size_t n = particles_.size();
+  staying.reserve(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    Vec3r x = particles_.position[k];
+    into_period(box.x, x.x, low.x, high.x);
+    into_period(box.y, x.y, low.y, high.y);
+    into_period(box.z, x.z, low.z, high.z);
+    particles_.position.set(k, x);
+    const bool out = outside(box.x, x.x, low.x, high.x) || outside(box.y, x.y, low.y, high.y) ||
+                     outside(box.z, x.z, low.z, high.z);
+    if (!out) staying.push_back(static_cast<std::int32_t>(k));
+  }
+  if (staying.size() == n) return;
+  totals_.out += static_cast<std::int64_t>(n - staying.size());
+  particles_.reorder(staying);
+}
+
+void Simulation::let_in_new_layers() {
+  const Stopwatch watch(stage_times_.integration);
+  for (LayerSource& source : sources_) {
+    const auto before = static_cast<std::int64_t>(particles_.size());
+    const Emission emission = source.emit(time_, particles_, next_id_);
+    totals_.emitted += static_cast<std::int64_t>(particles_.size()) - before;
+    totals_.waits += emission == Emission::began_to_wait;
+  }
+}
+
+bool Simulation::finished() const { return time_ >= scene_.time.end - 1e-6 * last_step_.dt; }
+
+StepView Simulation::view() const {
+  StepView s(units_, space_, particles_, walls_, fluid_neighbors_, wall_neighbors_);
+  s.rho = sessile::view(density_);
+  s.normal = sessile::view(normal_);
+  return s;
+}
+
+}  // namespace sessile

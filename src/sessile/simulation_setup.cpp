@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "sessile/core/error.h"
+#include "sessile/forces/viscosity.h"
+#include "sessile/neighbors/step_view.h"
+#include "sessile/pressure/pressure_force.h"
+#include "sessile/scene/validate.h"
+#include "sessile/simulation.h"
+
+namespace sessile {
+namespace {
+
+// Particles this close to each other or to a boundary particle at the start would be flung apart [dx].
+constexpr double least_distance = 0.5;
+
+// Measured memory of a particle with 30 neighbours, in bytes, rounded up.
+constexpr double bytes_per_particle = 600;
+
+void refuse_what_does_not_fit(const Scene& scene) {
+  double particles = 0;
+  for (const Body& body : scene.bodies) particles += estimate_fill(body, scene.spacing);
+  for (const Solid& solid : scene.solids) particles += estimate_surface(solid, scene.spacing);
+  if (scene.domain) {
+    for (const Solid& wall : domain_walls(*scene.domain)) particles += estimate_surface(wall, scene.spacing);
+  }
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (particles > 2e9 || particles * bytes_per_particle > memory) {
+    throw SceneError(fmt::format("the scene needs about {:.3g} particles and boundary particles, that is {:.3g} GiB; this "
+                                 "machine has {:.3g} GiB (a larger spacing needs fewer)",
+                                 particles, particles * bytes_per_particle / (1 << 30), memory / (1 << 30)));
+  }
+}
+
+std::string name_of(const std::string& label, const char* kind, std::size_t index) {
+  return label.empty() ? fmt::format("{}[{}]", kind, index) : fmt::format("{}[{}] \"{}\"", kind, index, label);
+}
+
+Space make_space(const Scene& scene) {
+  Space space;
+  if (!scene.domain) return space;
+  const Domain& box = *scene.domain;
+  const auto set = [&](Edge edge, double length, Real& period, Real& inverse) {
+    if (edge != Edge::periodic) return;
+    period = static_cast<Real>(length);
+    inverse = static_cast<Real>(1 / length);
+    space.periodic = true;
+  };
+  const Vec3d size = box.max - box.min;
+  set(box.x, size.x, space.period.x, space.inverse_period.x);
+  set(box.y, size.y, space.period.y, space.inverse_period.y);
+  set(box.z, size.z, space.period.z, space.inverse_period.z);
+  return space;
+}
+
+/// Says which bodies overlap, and which liquid starts inside a solid or outside the domain. `owner` names the body or
+/// emitter of each point.
+std::vector<std::string> misplaced(const Array3& points, const std::vector<std::size_t>& owner,
+                                   const std::vector<std::string>& names, const Scene& scene, const Walls& walls,
+                                   const std::vector<SolidGeometry>& solids, const Grid& wall_grid,
+                                   const GridShape& shape, const Space& space) {
+  std::set<std::string> faults;
+  Grid grid;
+  grid.build(points, shape);
+  Array3 sorted;
+  for (const std::int32_t k : grid.order()) sorted.push_back(points[static_cast<std::size_t>(k)]);
+  const auto close = static_cast<Real>(least_distance * scene.spacing);
+  NeighborList pairs, touches;
+  pairs.build(sorted, sorted, grid, space, close, true);
+  touches.build(sorted, walls.position, wall_grid, space, close, false);
+
+  std::map<std::string, std::size_t> inside;  // "bodies[0] ... in the solid x" -> particles
+  std::map<std::string, std::size_t> outside;
+  for (std::size_t place = 0; place < sorted.size(); ++place) {
+    const std::size_t mine = owner[static_cast<std::size_t>(grid.order()[place])];
+    for (const std::int32_t other : pairs[place]) {
+      const std::size_t theirs = owner[static_cast<std::size_t>(grid.order()[static_cast<std::size_t>(other)])];
+      if (mine < theirs) faults.insert(fmt::format("{} and {} overlap", names[mine], names[theirs]));
+    }
+    const Vec3d x = vec_cast<double>(sorted[place]);
+    std::ptrdiff_t solid = std::find_if(solids.begin(), solids.end(), [&](const auto& s) { return s.contains(x); }) -
+                           solids.begin();
+    if (solid == static_cast<std::ptrdiff_t>(solids.size()) && touches.count(place) > 0) {
+      solid = walls.solid[static_cast<std::size_t>(touches[place][0])];
+    }
+    if (solid < static_cast<std::ptrdiff_t>(solids.size())) {
+      ++inside[fmt::format("{} starts inside the solid \"{}\"", names[mine], walls.labels[static_cast<std::size_t>(solid)])];
+    }
+    if (scene.domain) {
+      const Vec3d low = scene.domain->min, high = scene.domain->max;
+      if (x.x < low.x || x.x > high.x || x.y < low.y || x.y > high.y || x.z < low.z || x.z > high.z) {
+        ++outside[fmt::format("{} starts outside the domain", names[mine])];
+      }
+    }
+  }
+  for (const auto* found : {&inside, &outside}) {
+    for (const auto& [what, count] : *found) faults.insert(fmt::format("{} ({} of its particles)", what, count));
+  }
+  return {faults.begin(), faults.end()};
+}
+
+}  // namespace
+
+Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
+  std::vector<std::string> invalid;
+  for (const Fault& fault : validate(scene_)) invalid.push_back(text(fault));
+  if (!invalid.empty()) throw SceneError(std::move(invalid));
+  refuse_what_does_not_fit(scene_);
+  units_ = {scene_.spacing, scene_.support_radius(), scene_.fluid.rest_density};
+  space_ = make_space(scene_);
+  grid_shape_ = GridShape::make(units_.support_radius, scene_.domain ? scene_.domain->min : Vec3d{},
+                                vec_cast<double>(space_.period));
+
+  std::vector<Solid> solids = scene_.solids;
+  if (scene_.domain) {
+    for (Solid& wall : domain_walls(*scene_.domain)) solids.push_back(std::move(wall));
+  }
+  walls_ = make_walls(solids, scene_, grid_shape_, space_, wall_grid_);
+  for (const Solid& solid : solids) {
+    solids_.emplace_back(solid);
+    coarse_walls_ = coarse_walls_ || solid.spacing.value_or(scene_.spacing) > 1.001 * scene_.spacing;
+  }
+
+  Array3 points;
+  std::vector<std::size_t> owner;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < scene_.bodies.size(); ++k) {
+    const Body& body = scene_.bodies[k];
+    names.push_back(name_of(body.label, "bodies", k));
+    for (const Vec3d& place : fill(body, scene_.spacing)) {
+      const Vec3d velocity = body.velocity + cross(body.spin, place - body.placement.position);
+      particles_.add(vec_cast<Real>(place), vec_cast<Real>(velocity), static_cast<Real>(body.mass_factor), next_id_++);
+      owner.push_back(names.size() - 1);
+    }
+  }
+  points = particles_.position;
+  // A layer may appear where a body starts: it waits. But it cannot appear in a solid.
+  auto faults = misplaced(points, owner, names, scene_, walls_, solids_, wall_grid_, grid_shape_, space_);
+  for (std::size_t k = 0; k < scene_.emitters.size(); ++k) {
+    sources_.emplace_back(scene_.emitters[k], scene_.spacing, space_);
+    const Array3& places = sources_.back().places();
+    for (auto& fault : misplaced(places, std::vector<std::size_t>(places.size(), 0),
+                                 {name_of(scene_.emitters[k].label, "emitters", k)}, scene_, walls_, solids_, wall_grid_,
+                                 grid_shape_, space_)) {
+      faults.push_back(std::move(fault));
+    }
+  }
+  if (!faults.empty()) throw SceneError(std::move(faults));
+  let_in_new_layers();
+  look_around();
+}
+
+std::vector<std::string> Simulation::acceleration_names() const {
+  std::vector<std::string> names{"gravity", "viscosity", "pressure"};
+  for (const Force& force : scene_.forces) {
+    std::string name = std::visit([](const auto& model) { return std::string(model.name); }, force);
+    const auto same = std::count(names.begin(), names.end(), name);
+    names.push_back(same == 0 ? name : fmt::format("{}_{}", name, same + 1));
+  }
+  return names;
+}
+
+Array3 Simulation::acceleration(std::string_view name) const {
+  const StepView s = view();
+  Array3 a;
+  a.assign(s.n, name == "gravity" ? vec_cast<Real>(scene_.gravity) : Vec3r{});
+  if (name == "viscosity") add_viscosity(s, scene_.fluid.viscosity, a);
+  if (name == "pressure") {
+    Array<Real> stress;
+    pressure_acceleration(s, particles_.pressure, stress, a);
+  }
+  const std::vector<std::string> names = acceleration_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw Error(fmt::format("no acceleration is called \"{}\"", name));
+  constexpr std::ptrdiff_t own = 3;  // gravity, viscosity and pressure come before the scene's forces
+  if (found - names.begin() >= own) {
+    std::visit([&](const auto& model) { model.add_acceleration(s, a); },
+               scene_.forces[static_cast<std::size_t>(found - names.begin() - own)]);
+  }
+  return a;
+}
+
+std::size_t Simulation::bytes() const {
+  // position, velocity, normal, acceleration, pressure acceleration; mass, pressure, density, stress, advected, diagonal
+  const std::size_t arrays = particles_.size() * ((5 * 3 + 6) * sizeof(Real) + sizeof(std::int64_t));
+  return arrays + walls_.bytes() + grid_.bytes() + wall_grid_.bytes() + fluid_neighbors_.bytes() +
+         wall_neighbors_.bytes();
+}
+
+}  // namespace sessile

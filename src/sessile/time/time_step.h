@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string_view>
+
+#include "sessile/scene/scene.h"
+
+namespace sessile {
+
+/// What the time step depends on at one moment, in SI units.
+struct MotionScale {
+  double spacing = 0;
+  double rest_density = 0;
+  double speed = 0;         ///< greatest |v| [m/s]
+  double acceleration = 0;  ///< greatest |a| without pressure [m/s^2]
+  double viscosity = 0;     ///< greatest mu, walls included [Pa s]
+  double tension = 0;       ///< macroscopic sigma of all forces [N/m]
+};
+
+/// A time step and what set it.
+struct TimeStep {
+  double dt = 0;               ///< [s]
+  std::string_view bound;      ///< cfl, force, viscosity, capillary, growth, dt_max, dt_min or fixed
+  std::string_view overruled;  ///< the stability bound that dt_min or a fixed dt exceeds, or ""
+};
+
+/// The largest step that every bound allows (MODEL, section 5):
+///   cfl dx/|v|max,  force sqrt(dx/|a|max),  viscosity rho0 dx^2/mu,  capillary sqrt(rho0 dx^3/(2 pi sigma)),
+/// kept in [dt_min, dt_max] and growing at most by `growth` over `last` (0: no step yet).
+TimeStep choose_time_step(const TimeSettings& settings, const MotionScale& scale, double last);
+
+}  // namespace sessile

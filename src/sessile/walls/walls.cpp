@@ -1,0 +1,61 @@
+#include "sessile/walls/walls.h"
+
+#include "sessile/core/parallel.h"
+#include "sessile/kernels/cubic_spline.h"
+#include "sessile/neighbors/neighbor_view.h"
+#include "sessile/scene/sampling.h"
+
+namespace sessile {
+namespace {
+
+template <class T>
+void put_in_order(Array<T>& array, std::span<const std::int32_t> order) {
+  const Array<T> old = array;
+  for (std::size_t k = 0; k < order.size(); ++k) array[k] = old[static_cast<std::size_t>(order[k])];
+}
+
+}  // namespace
+
+Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const GridShape& shape, const Space& space,
+                 Grid& grid) {
+  Walls walls;
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    const Solid& solid = solids[k];
+    const double viscosity = solid.viscosity.value_or(scene.fluid.viscosity) / scene.fluid.rest_density;
+    for (const Vec3d& place : sample_surface(solid, scene.spacing)) {
+      walls.position.push_back(vec_cast<Real>(place));
+      walls.adhesion.push_back(static_cast<Real>(solid.adhesion));
+      walls.viscosity.push_back(static_cast<Real>(viscosity));
+      walls.solid.push_back(static_cast<std::int32_t>(k));
+    }
+    walls.labels.push_back(solid.label.empty() ? "solid" + std::to_string(k) : solid.label);
+    walls.centres.push_back(solid.placement.position);
+    walls.forces.emplace_back();
+  }
+  const std::size_t n = walls.size();
+  walls.velocity.assign(n, {});
+
+  grid.build(walls.position, shape);
+  for (auto* array : {&walls.position.x, &walls.position.y, &walls.position.z, &walls.adhesion, &walls.viscosity}) {
+    put_in_order(*array, grid.order());
+  }
+  put_in_order(walls.solid, grid.order());
+
+  const CubicSpline W(scene.support_radius(), scene.spacing);
+  NeighborList list;
+  list.build(walls.position, walls.position, grid, space, static_cast<Real>(scene.support_radius()), true);
+  const NeighborView near(list);
+  const View3 x{walls.position.x.data(), walls.position.y.data(), walls.position.z.data()};
+  walls.psi.resize(n);
+  for_each(n, [&](int b) {
+    const Real number_density = W.at_zero() + near.sum(b, [&](auto c) {
+      return W.value(length(space.displacement(spread<LaneOf<decltype(c)>>(x[b]), x[c])));
+    });
+    walls.psi[static_cast<std::size_t>(b)] = 1 / number_density;
+  });
+  return walls;
+}
+
+std::size_t Walls::bytes() const { return size() * (9 * sizeof(Real) + sizeof(std::int32_t)); }
+
+}  // namespace sessile

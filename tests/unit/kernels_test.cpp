@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sessile/kernels/adhesion.h"
+#include "sessile/kernels/cohesion.h"
+#include "sessile/kernels/cubic_spline.h"
+
+namespace sessile {
+namespace {
+
+constexpr double h = 0.2, dx = 0.1;
+constexpr double unit = dx * dx * dx;  // kernels are in units of 1/dx^3
+
+Real at(double x) { return static_cast<Real>(x); }
+
+TEST(CubicSpline, IntegratesToOne) {
+  const CubicSpline W(h, dx);
+  double integral = 0;
+  const int n = 20000;
+  for (int k = 0; k < n; ++k) {
+    const double r = (k + 0.5) * h / n;
+    integral += 4 * std::numbers::pi * r * r * static_cast<double>(W.value(at(r))) / unit * h / n;
+  }
+  EXPECT_NEAR(integral, 1, 1e-5);
+}
+
+TEST(CubicSpline, HasThePrintedValues) {
+  const CubicSpline W(h, dx);
+  const double sigma = 8 / (std::numbers::pi * h * h * h) * unit;
+  for (const double q : {0.0, 0.1, 0.3, 0.5, 0.7, 0.95}) {
+    const double printed = q <= 0.5 ? 6 * q * q * q - 6 * q * q + 1 : 2 * std::pow(1 - q, 3);
+    EXPECT_NEAR(static_cast<double>(W.value(at(q * h))), sigma * printed, 1e-6 * sigma) << q;
+  }
+  EXPECT_EQ(W.value(at(1.01 * h)), 0);
+  EXPECT_FLOAT_EQ(static_cast<float>(W.at_zero()), static_cast<float>(W.value(Real(0))));
+}
+
+TEST(CubicSpline, GradientIsTheDifferenceOfValues) {
+  const CubicSpline W(h, dx);
+  const auto exact = [](double r) {  // in double, so that the difference is not float rounding
+    const double q = r / h, sigma = 8 / (std::numbers::pi * h * h * h) * unit;
+    return sigma * (q <= 0.5 ? 6 * q * q * q - 6 * q * q + 1 : 2 * std::pow(1 - q, 3));
+  };
+  const double greatest = 8 / (std::numbers::pi * h * h * h) * unit * 1.5 / h;
+  for (double q = 0.01; q < 1; q += 0.01) {
+    const double r = q * h, e = 1e-5 * h;
+    const double difference = (exact(r + e) - exact(r - e)) / (2 * e);
+    const Vec3r gradient = W.gradient(Vec3r{at(r), 0, 0}, at(r));
+    EXPECT_NEAR(static_cast<double>(gradient.x), difference, 1e-5 * greatest) << q;
+  }
+  EXPECT_EQ(W.gradient(Vec3r{}, Real(0)), Vec3r{});
+}
+
+TEST(CohesionSpline, IsContinuousWhereItsPiecesMeet) {
+  const CohesionSpline d(h, dx);
+  const double below = static_cast<double>(d.value(at(0.4999999 * h)));
+  const double above = static_cast<double>(d.value(at(0.5000001 * h)));
+  EXPECT_NEAR(below, above, 1e-5 * above);
+  EXPECT_NEAR(static_cast<double>(d.value(at(h))), 0, 1e-7);
+}
+
+TEST(CohesionSpline, VanishesAtItsZeroAndPeaksAtHalfTheSupport) {
+  const CohesionSpline d(h, dx);
+  EXPECT_LT(d.value(at(0.272 * h)), 0);
+  EXPECT_GT(d.value(at(0.274 * h)), 0);
+  double greatest = 0, place = 0;
+  for (double q = 0.001; q < 1; q += 0.001) {
+    const double value = static_cast<double>(d.value(at(q * h)));
+    if (value > greatest) greatest = value, place = q;
+  }
+  EXPECT_NEAR(greatest / unit, 0.159 / (h * h * h), 0.001 / (h * h * h));
+  EXPECT_NEAR(place, 0.5, 0.002);
+  EXPECT_EQ(d.value(Real(0)), 0);
+}
+
+TEST(AdhesionSpline, VanishesAtHalfTheSupportAndAtTheSupport) {
+  const AdhesionSpline y(h, dx);
+  EXPECT_NEAR(static_cast<double>(y.value(at(0.5 * h))), 0, 1e-8);
+  EXPECT_NEAR(static_cast<double>(y.value(at(h))), 0, 1e-8);
+  EXPECT_EQ(y.value(at(0.3 * h)), 0);
+  const double peak = 0.01 / std::pow(h, 5) * h * h / 16 * unit;  // (23) at 3h/4
+  EXPECT_NEAR(static_cast<double>(y.value(at(0.75 * h))), peak, 1e-6 * peak);
+}
+
+/// Every kernel in packs of lanes gives what it gives number by number.
+template <class Kernel, class Value>
+void expect_lanes_agree(const Kernel& kernel, const Value& value) {
+  for (int start = 0; start < 1000; start += lane_count) {
+    alignas(64) Real r[lane_count], packed[lane_count];
+    for (int k = 0; k < lane_count; ++k) r[k] = at(1.1 * h * (start + k) / 1000);
+    value(kernel, Lanes::load_aligned(r)).store_aligned(packed);
+    for (int k = 0; k < lane_count; ++k) {
+      const Real alone = value(kernel, r[k]);
+      EXPECT_NEAR(packed[k], alone, 2e-6 * std::abs(static_cast<double>(alone)) + 1e-8) << r[k] / h;
+    }
+  }
+}
+
+TEST(Lanes, AgreeWithNumbersInEveryKernel) {
+  const auto value = [](const auto& kernel, const auto& r) { return kernel.value(r); };
+  const auto slope = [](const auto& kernel, const auto& r) { return kernel.slope_over_r(r); };
+  expect_lanes_agree(CubicSpline(h, dx), value);
+  expect_lanes_agree(CubicSpline(h, dx), slope);
+  expect_lanes_agree(CohesionSpline(h, dx), value);
+  expect_lanes_agree(AdhesionSpline(h, dx), value);
+}
+
+TEST(Kernels, StayInFloatsRangeAtOneMicrometre) {
+  const double small_dx = 1e-6, small_h = 2e-6;
+  for (const double q : {0.1, 0.4, 0.6, 0.9}) {
+    const Real r = at(q * small_h);
+    EXPECT_NEAR(CubicSpline(small_h, small_dx).value(r), CubicSpline(h, dx).value(at(q * h)), 1e-6);
+    EXPECT_NEAR(CohesionSpline(small_h, small_dx).value(r), CohesionSpline(h, dx).value(at(q * h)), 1e-6);
+    EXPECT_NEAR(AdhesionSpline(small_h, small_dx).value(r), AdhesionSpline(h, dx).value(at(q * h)), 1e-9);
+    EXPECT_TRUE(std::isfinite(CubicSpline(small_h, small_dx).slope_over_r(r)));
+  }
+}
+
+}  // namespace
+}  // namespace sessile
