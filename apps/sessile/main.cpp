@@ -1,13 +1,29 @@
 #include <fmt/format.h>
 
-#include <clocale>
+#include <unistd.h>
+
+#include <cstdlib>
 #include <new>
 
 #include "commands.h"
 #include "sessile/core/error.h"
 #include "sessile/version.h"
 
+namespace {
+
+/// Starts the program anew with OpenMP threads that sleep while they wait, unless the user has chosen otherwise. By
+/// default they spin: beside other work on the same cores, a step then takes up to 60 times longer (docs/decisions). The
+/// runtime reads its environment before main, hence the new start.
+void let_threads_sleep(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
+  if (setenv("OMP_WAIT_POLICY", "passive", 0) == 0) execv("/proc/self/exe", argv);
+  // Where that does not work, the program runs all the same.
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  let_threads_sleep(argv);
   using namespace sessile;
   CLI::App program("Liquids at the scale where surface tension and adhesion rule.", "sessile");
   program.set_version_flag("--version", "sessile " + std::string(version()));

@@ -1,8 +1,12 @@
 #include "recorder.h"
 
 #include <chrono>
+#include <exception>
+#include <system_error>
 
+#include "sessile/core/error.h"
 #include "sessile/output/file.h"
+#include "sessile/output/frames.h"
 #include "sessile/output/snapshot.h"
 
 namespace sessile::app {
@@ -15,15 +19,31 @@ double seconds_of(F&& f) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-const std::filesystem::path& made(const std::filesystem::path& folder) {
+/// Makes the folder, and takes out the frames of an earlier run into it: left beside fewer new ones they would pass for
+/// theirs.
+const std::filesystem::path& prepared(const std::filesystem::path& folder) {
   create_output_folder(folder);
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const std::string extension = entry.path().extension().string();
+    if (name.rfind("frame_", 0) == 0 && find_frame_format(extension.empty() ? "" : extension.substr(1)) != nullptr) {
+      old.push_back(entry.path());
+    }
+  }
+  for (const auto& file : old) {
+    std::error_code error;
+    if (!std::filesystem::remove(file, error) && error) {
+      throw FileError(file.string() + ": cannot remove this frame of an earlier run: " + error.message());
+    }
+  }
   return folder;
 }
 
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& folder, const Simulation& simulation)
-    : folder_(made(folder)),
+    : folder_(prepared(folder)),
       frames_(folder, simulation.scene().output.formats),
       stats_(folder / "stats.csv", simulation.walls().labels),
       frame_interval_(simulation.scene().output.frame_interval),
@@ -62,11 +82,27 @@ void Recorder::finish(const Simulation& simulation, RunFacts facts) {
     if (frame_time_ < simulation.time()) write_frame(simulation);
     if (stats_time_ < simulation.time()) write_stats(simulation);
   }
-  output_seconds_ += seconds_of([&] { frames_.close(); });
+  std::exception_ptr close_error;
+  try {
+    output_seconds_ += seconds_of([&] { frames_.close(); });
+  } catch (const FileError& e) {
+    // The summary may still find room, and should say how the run ended.
+    close_error = std::current_exception();
+    facts.status = RunStatus::failed;
+    if (facts.message.empty()) facts.message = e.what();
+  }
   facts.output_time = output_seconds_;
   facts.measures_time = measure_seconds_;
   facts.writer_time = frames_.seconds();
   facts.frames = frames_.frames_written();
+  if (close_error) {
+    try {
+      write_summary(folder_ / "summary.json", facts, simulation_facts(simulation));
+    } catch (const FileError&) {
+      // The first error is the one to report.
+    }
+    std::rethrow_exception(close_error);
+  }
   write_summary(folder_ / "summary.json", facts, simulation_facts(simulation));
 }
 

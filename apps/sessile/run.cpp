@@ -37,6 +37,7 @@ void stop_on_signals() {
   };
   std::signal(SIGINT, ask);
   std::signal(SIGTERM, ask);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then is an error of the write, with a sentence
 }
 
 /// Says once what the user should know while it happens.

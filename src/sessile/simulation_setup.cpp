@@ -157,8 +157,9 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
 std::vector<std::string> Simulation::acceleration_names() const {
   std::vector<std::string> names{"gravity", "viscosity", "pressure"};
   for (const Force& force : scene_.forces) {
-    std::string name = std::visit([](const auto& model) { return std::string(model.name); }, force);
-    const auto same = std::count(names.begin(), names.end(), name);
+    const auto kind = force.index();
+    const auto same = std::count_if(scene_.forces.data(), &force, [&](const Force& f) { return f.index() == kind; });
+    const std::string name = std::visit([](const auto& model) { return std::string(model.name); }, force);
     names.push_back(same == 0 ? name : fmt::format("{}_{}", name, same + 1));
   }
   return names;

@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <regex>
 #include <sstream>
 
 #include "sessile/scene/describe.h"
@@ -116,7 +116,9 @@ TEST_F(SceneReading, ComesBackFromItsJson) {
 
 TEST_F(SceneReading, RemembersWhatWasGiven) {
   const auto resolved = read_resolved_scene(write("s.json", small), std::vector<std::string>{"fluid.viscosity=3"});
-  const std::string text = std::regex_replace(describe(resolved), std::regex(" +"), " ");
+  std::string text = describe(resolved);
+  const auto both_blank = [](char a, char b) { return a == ' ' && b == ' '; };
+  text.erase(std::unique(text.begin(), text.end(), both_blank), text.end());  // widths of columns do not matter
   EXPECT_TRUE(has(text, "time.end 1 given s\n"));
   EXPECT_TRUE(has(text, "fluid.viscosity 3 given Pa s\n"));
   EXPECT_TRUE(has(text, "fluid.rest_density 1000 default kg m^-3\n"));

@@ -1,25 +1,21 @@
 #include "sessile/scene/mesh.h"
 
-#include <assimp/BaseImporter.h>
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/importerdesc.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <exception>
-#include <limits>
-#include <memory>
+#include <cstring>
+#include <fstream>
 #include <numeric>
-#include <string_view>
+#include <string>
 #include <system_error>
 #include <tuple>
 
 #include "sessile/core/error.h"
+#include "sessile/scene/mesh_files.h"
 
 namespace sessile {
 
@@ -28,28 +24,30 @@ namespace {
 constexpr double farthest_vertex = 1e12;  // [m] beyond any scene
 constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
 
-/// Opens the mesh itself and nothing that it names: a model from elsewhere shall not reach other files.
-class OneFile : public Assimp::DefaultIOSystem {
- public:
-  explicit OneFile(std::string file) : file_(std::move(file)) {}
-  Assimp::IOStream* Open(const char* name, const char* mode) override {
-    return name == file_ ? DefaultIOSystem::Open(name, mode) : nullptr;
-  }
-  bool Exists(const char* name) const override { return name == file_ && DefaultIOSystem::Exists(name); }
+std::string bytes_of(const std::string& file) {
+  const auto cannot = [&](const std::string& why) { return FileError(file + ": cannot be read: " + why); };
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) throw cannot(error.message());
+  if (size > largest_file) throw cannot(fmt::format("it is larger than {} MiB", largest_file >> 20));
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(size, '\0');
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) throw cannot(std::strerror(errno));
+  return bytes;
+}
 
- private:
-  std::string file_;
-};
-
-/// Takes out every importer but those of the three formats, which otherwise judge a file by its content.
-void keep_three_formats(Assimp::Importer& importer) {
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    Assimp::BaseImporter* const each = importer.GetImporter(i);
-    const std::string_view extensions = each->GetInfo()->mFileExtensions;
-    if (extensions == "obj" || extensions == "stl" || extensions == "ply") continue;
-    importer.UnregisterLoader(each);
-    const std::unique_ptr<Assimp::BaseImporter> ours(each);
+TriangleSoup parse(const std::string& file) {
+  const std::string bytes = bytes_of(file);
+  std::string extension = std::filesystem::path(file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  try {
+    if (extension == ".obj") return parse_obj(bytes);
+    if (extension == ".stl") return parse_stl(bytes);
+    if (extension == ".ply") return parse_ply(bytes);
+  } catch (const FileError& fault) {
+    throw FileError(file + ": " + fault.what());
   }
+  throw FileError(file + ": is no .obj, .stl or .ply file");
 }
 
 }  // namespace
@@ -80,49 +78,17 @@ TriangleMesh make_mesh(const std::vector<Vec3d>& corners, const std::vector<std:
 }
 
 TriangleMesh load_mesh(const Mesh& mesh) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(mesh.file, error);
-  if (error) throw FileError(mesh.file + ": cannot be read: " + error.message());
-  if (size > largest_file) throw FileError(fmt::format("{}: is larger than {} MiB", mesh.file, largest_file >> 20));
-
-  Assimp::Importer importer;
-  keep_three_formats(importer);
-  importer.SetIOHandler(new OneFile(mesh.file));  // the importer owns it
-  const aiScene* scene = nullptr;
-  try {
-    scene = importer.ReadFile(mesh.file, aiProcess_Triangulate);
-  } catch (const std::exception& exception) {
-    throw FileError(mesh.file + ": cannot be read: " + exception.what());
+  TriangleSoup soup = parse(mesh.file);
+  for (std::size_t i = 0; i < soup.corners.size(); ++i) {
+    Vec3d& p = soup.corners[i];
+    // Adding 0 makes -0 the same place as 0.
+    p = {p.x * mesh.scale + 0.0, p.y * mesh.scale + 0.0, p.z * mesh.scale + 0.0};
+    if (std::isfinite(p.x + p.y + p.z) && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < farthest_vertex)
+      continue;
+    throw SceneError(
+        fmt::format("{}: corner {} is not finite or farther away than {} m", mesh.file, i + 1, farthest_vertex));
   }
-  if (scene == nullptr) throw FileError(mesh.file + ": cannot be read: " + importer.GetErrorString());
-
-  std::vector<Vec3d> corners;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-    const aiMesh& part = *scene->mMeshes[m];
-    if (part.mVertices == nullptr || part.mFaces == nullptr) continue;
-    const auto base = static_cast<std::uint32_t>(corners.size());
-    for (unsigned v = 0; v < part.mNumVertices; ++v) {
-      const aiVector3D& p = part.mVertices[v];
-      // Adding 0 makes -0 the same place as 0.
-      const Vec3d corner{p.x * mesh.scale + 0.0, p.y * mesh.scale + 0.0, p.z * mesh.scale + 0.0};
-      if (!(std::max({std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)}) < farthest_vertex)) {
-        throw SceneError(
-            fmt::format("{}: vertex {} is not finite or farther away than {} m", mesh.file, v, farthest_vertex));
-      }
-      corners.push_back(corner);
-    }
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue;
-      const auto past = [&](unsigned index) { return index >= part.mNumVertices; };
-      if (std::any_of(face.mIndices, face.mIndices + 3, past)) {
-        throw SceneError(fmt::format("{}: triangle {} names a vertex that is not there", mesh.file, f));
-      }
-      triangles.push_back({base + face.mIndices[0], base + face.mIndices[1], base + face.mIndices[2]});
-    }
-  }
-  TriangleMesh result = make_mesh(corners, triangles);
+  TriangleMesh result = make_mesh(soup.corners, soup.triangles);
   if (result.triangles.empty() || !(result.area() > 0)) throw SceneError(mesh.file + ": holds no triangles");
   return result;
 }

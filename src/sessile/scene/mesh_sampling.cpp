@@ -12,7 +12,7 @@ namespace sessile {
 
 namespace {
 
-constexpr double least_distance = 0.84;  // over the spacing; packs about one sample per spacing^2
+constexpr double least_distance = 0.86;  // over the spacing; packs about one sample per spacing^2
 constexpr double raster = 0.25;          // over the spacing
 
 /// Samples found so far, in cells, so that none is taken too near another.

@@ -7,8 +7,8 @@
 
 namespace sessile {
 
-/// Places [m] of samples on a mesh, about one per spacing^2, evenly spread whatever the triangles: corners first, then
-/// a fine raster of each triangle, of which a place is taken when no sample is nearer than 0.84 spacing. Further
+/// Places [m] of samples on a mesh, 0.8 to 1.3 per spacing^2, evenly spread whatever the triangles: corners first, then
+/// a fine raster of each triangle, of which a place is taken when no sample is nearer than 0.86 spacing. Further
 /// layers of a closed mesh lie inside it, parallel to its triangles. The same mesh gives the same samples.
 std::vector<Vec3d> sample_mesh(const TriangleMesh& mesh, double spacing, int layers, const std::string& who);
 

@@ -147,15 +147,20 @@ bool MeshSpace::crossed(const Vec3d& a, const Vec3d& b) const {
       [&](const Triangle& t) { return passes(t, p, q); });
 }
 
+/// Whether the way from a to b meets the triangle. What lies within rounding of an edge or a corner counts as met, for
+/// each of the triangles there: none shall slip through between them.
 bool MeshSpace::passes(const Triangle& triangle, const Vec3d& a, const Vec3d& b) const {
   const Vec3d &u = vertices_[triangle[0]], &v = vertices_[triangle[1]], &w = vertices_[triangle[2]];
   if ((corner_side(u, v, w, a) >= 0) == (corner_side(u, v, w, b) >= 0)) return false;
-  std::array<bool, 3> left{};
+  bool left = true, right = true;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto i = triangle[k], j = triangle[(k + 1) % 3];
-    left[k] = (corner_side(a, b, vertices_[std::min(i, j)], vertices_[std::max(i, j)]) > 0) == (i < j);
+    const Vec3d &p = vertices_[triangle[k]], &q = vertices_[triangle[(k + 1) % 3]];
+    const double side = corner_side(a, b, p, q);
+    const double rounding = 1e-14 * length(b - a) * length(p - a) * length(q - a);
+    left = left && side >= -rounding;
+    right = right && side <= rounding;
   }
-  return left[0] == left[1] && left[1] == left[2];
+  return left || right;
 }
 
 }  // namespace sessile

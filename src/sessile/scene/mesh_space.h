@@ -9,7 +9,7 @@
 namespace sessile {
 
 /// A mesh as a body of space: a tree of boxes over its triangles answers what is inside and what passes through.
-/// Both answers are watertight: a ray or a path that meets a shared edge meets exactly one of its triangles.
+/// Both answers are watertight: a ray that meets a shared edge meets exactly one of its triangles, a way at least one.
 class MeshSpace {
  public:
   explicit MeshSpace(const TriangleMesh& mesh);
