@@ -27,7 +27,6 @@ if [ -z "$again" ] && [ "$finished" -nt "$program" ] && [ "$finished" -nt "$scen
 else
   rm -f "$finished"
   say "Running $scene"
-  export OMP_WAIT_POLICY=${OMP_WAIT_POLICY-passive} # threads that spin while they wait stand still on a busy machine
   start=$SECONDS status=0
   "$program" run "$scene" -o "$results" || status=$?
   [ $status -ne 130 ] || { say "interrupted; what was written so far is in $results"; exit 130; }
