@@ -7,7 +7,7 @@ say() { printf '%s\n' "$*"; }
 
 # fail SENTENCE: ends the script with one line.
 fail() {
-  printf '%s: error: %s\n' "$(basename "$0")" "$*" >&2
+  printf '%s: error: %s\n' "$0" "$*" >&2
   exit 1
 }
 
