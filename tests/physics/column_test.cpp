@@ -13,42 +13,65 @@ double top(const Simulation& simulation) {
   return static_cast<double>(*std::max_element(z.begin(), z.end()));
 }
 
-/// Hydrostatic column 20 dx deep: p = rho g (H - z) to 2 % in L2, and a surface that drifts less than dx/2.
+/// Root mean square of a - b over that of b.
+double l2_error(const std::vector<double>& a, const std::vector<double>& b, std::size_t from = 0) {
+  double squares = 0, scale = 0;
+  for (std::size_t k = from; k < a.size(); ++k) squares += std::pow(a[k] - b[k], 2), scale += b[k] * b[k];
+  return std::sqrt(squares / scale);
+}
+
+/// Hydrostatic column 20 dx deep: the pressure profile in bins of dx is rho g (H - z) to 2 % in L2, and the surface drifts
+/// less than dx/2. The error is taken beyond a support radius from the floor: one layer of boundary particles that mirror
+/// the particle's own pressure, as the paper's (5) has it, pushes with half of what a liquid layer would, so the
+/// pressure of the first layer is 1.5 times the column's. The error over all bins is printed beside it.
 void check_column(double settle, double watch) {
-  Scene scene = test::column(8, 20, 4e-3);
+  Scene scene = test::column(8, 20);
+  const double dx = scene.spacing;
   scene.time.end = settle + watch;
   Simulation simulation(scene);
   while (simulation.time() < settle) simulation.step();
   const double before = top(simulation);
-  // The pressure of one step flickers as the solver stops at its tolerance: average over half a second.
-  std::vector<double> pressure(simulation.particles().size()), height(pressure.size());
+  constexpr std::size_t bins = 20;
+  std::vector<double> pressure(bins), height(bins), count(bins);
+  std::vector<double> mean_height(simulation.particles().size());
+  double floor_force = 0;
   int samples = 0;
   while (!simulation.finished()) {
     simulation.step();
-    if (simulation.time() < scene.time.end - 0.5) continue;
     ++samples;
     const Particles& p = simulation.particles();
+    floor_force += simulation.walls().forces[0].force.z;
     for (std::size_t i = 0; i < p.size(); ++i) {
-      const auto id = static_cast<std::size_t>(p.id[i]);
-      pressure[id] += 1000 * static_cast<double>(p.pressure[i]);
-      height[id] += static_cast<double>(p.position.z[i]);
+      const double z = static_cast<double>(p.position.z[i]);
+      mean_height[static_cast<std::size_t>(p.id[i])] += z;
+      const auto bin = static_cast<std::size_t>(z / dx);
+      if (bin >= bins) continue;
+      pressure[bin] += scene.fluid.rest_density * static_cast<double>(p.pressure[i]);
+      height[bin] += z;
+      ++count[bin];
     }
   }
-  EXPECT_LT(std::abs(top(simulation) - before), 0.05) << "drift of the surface";
-  const double surface = top(simulation) + 0.05;
-  double squares = 0, scale = 0;
-  for (std::size_t i = 0; i < pressure.size(); ++i) {
-    const double expected = 1000 * 9.81 * (surface - height[i] / samples);
-    squares += std::pow(pressure[i] / samples - expected, 2);
-    scale += expected * expected;
+  EXPECT_LT(std::abs(top(simulation) - before), 0.5 * dx) << "drift of the surface";
+  // The surface: half a spacing above the mean of the topmost 64 particles, one layer.
+  std::sort(mean_height.begin(), mean_height.end());
+  double surface = 0.5 * dx;
+  for (std::size_t k = mean_height.size() - 64; k < mean_height.size(); ++k) surface += mean_height[k] / samples / 64;
+  std::vector<double> expected(bins);
+  for (std::size_t k = 0; k < bins; ++k) {
+    ASSERT_GT(count[k], 0);
+    pressure[k] /= count[k];
+    expected[k] = 1000 * 9.81 * (surface - height[k] / count[k]);
   }
-  std::printf("hydrostatic column: L2 error %.2f %%, drift %.4f dx, %.1f iterations a step\n",
-              100 * std::sqrt(squares / scale), (top(simulation) - before) / 0.1,
-              static_cast<double>(simulation.totals().iterations) / static_cast<double>(simulation.totals().steps));
-  EXPECT_LT(std::sqrt(squares / scale), 0.02);
+  const double error = l2_error(pressure, expected, 3);
+  std::printf("hydrostatic column: L2 error %.2f %% (%.1f %% with the layers at the floor), drift %.3f dx, "
+              "%.1f iterations a step, kinetic energy %.2g J\n",
+              100 * error, 100 * l2_error(pressure, expected), (top(simulation) - before) / dx,
+              static_cast<double>(simulation.totals().iterations) / static_cast<double>(simulation.totals().steps),
+              test::kinetic_energy(simulation));
+  EXPECT_LT(error, 0.02);
   // The floor carries the weight.
-  const double weight = static_cast<double>(pressure.size()) * simulation.units().particle_mass() * 9.81;
-  EXPECT_NEAR(simulation.walls().forces[0].force.z / -weight, 1, 0.02);
+  const double weight = static_cast<double>(mean_height.size()) * simulation.units().particle_mass() * 9.81;
+  EXPECT_NEAR(floor_force / samples / -weight, 1, 0.01);
   EXPECT_EQ(simulation.totals().lost, 0);
 }
 
@@ -56,20 +79,22 @@ TEST(HydrostaticColumn, CarriesItsWeight) { check_column(1, 1); }
 
 TEST(HydrostaticColumnSlow, StandsStillForFiveSeconds) { check_column(2, 5); }
 
-/// Flow between plates under a body force: u_max = rho g d^2/(2 mu), d half the gap.
+/// Flow between plates under a body force: u_max = rho g d^2/(2 mu), d half the gap between the boundary particles.
+/// Plates of two layers hold the goal of 3 % with 15 particles across; those of one layer drag more (5.7 % low).
 void check_poiseuille(int layers, double tolerance) {
   Scene scene = test::column(6, layers);
   const double dx = scene.spacing;
-  const double gap = (layers + 1) * dx;
+  const double gap = (layers - 1 + 2 * test::rest_distance) * dx;
   scene.gravity = {0.1, 0, 0};
   scene.fluid.viscosity = 100;
   scene.time.fixed_dt.reset();
   scene.time.dt_max = 0.01;
   const double half = gap / 2, nu = scene.fluid.viscosity / scene.fluid.rest_density;
   scene.time.end = 2 * half * half / nu;  // the slowest mode has died to 0.7 %
+  scene.solids[0].layers = 2;
   Solid lid = scene.solids[0];
   lid.label = "lid";
-  lid.placement.position = {0, 0, gap};
+  lid.placement = {{0, 0, gap}, {1, 0, 0}, 180};  // its second layer above the first
   scene.solids.push_back(lid);
   Simulation simulation(scene);
   test::run(simulation);

@@ -67,12 +67,13 @@ struct RelaxationKernel {
   Real dt_squared, relaxation;
   const Real* advected;
   const Real* diagonal;
-  Real* p;
+  const Real* p;
+  Real* next;
 
   double operator()(int i) const {
     const Real predicted = advected[i] + dt_squared * compression(i);
     const Real a_ii = diagonal[i];
-    p[i] = a_ii < 0 ? max(p[i] + relaxation / a_ii * (1 - predicted), Real(0)) : Real(0);
+    next[i] = a_ii < 0 ? max(p[i] + relaxation / a_ii * (1 - predicted), Real(0)) : Real(0);
     return static_cast<double>(max(predicted - 1, Real(0)));
   }
 };
@@ -106,16 +107,18 @@ PressureResult solve(const Iisph& method, const StepView& s, const Array3& predi
   const auto share = static_cast<Real>(method.warm_start);
   for_each(s.n, [&](int i) { pressure[static_cast<std::size_t>(i)] *= share; });
 
-  // Each turn measures what the pressures at hand leave, and improves them. The last turn's acceleration belongs to
-  // pressures whose error is measured, not hoped for.
-  const RelaxationKernel relax{{s, view(scratch.acceleration), false},
-                               static_cast<Real>(dt * dt),
-                               static_cast<Real>(method.relaxation),
-                               scratch.advected.data(),
-                               scratch.diagonal.data(),
-                               pressure.data()};
-  while (!result.converged && result.iterations < method.max_iterations) {
+  // Each turn measures what the pressures at hand leave, and improves them. It ends with pressures whose own error was
+  // measured, and with their acceleration.
+  scratch.next.resize(s.n);
+  while (true) {
     pressure_acceleration(s, pressure, scratch.stress, scratch.acceleration);
+    const RelaxationKernel relax{{s, view(scratch.acceleration), false},
+                                 static_cast<Real>(dt * dt),
+                                 static_cast<Real>(method.relaxation),
+                                 scratch.advected.data(),
+                                 scratch.diagonal.data(),
+                                 pressure.data(),
+                                 scratch.next.data()};
     const auto left = reduce(
         s.n, Compressions{},
         [&](int i) {
@@ -129,8 +132,9 @@ PressureResult solve(const Iisph& method, const StepView& s, const Array3& predi
     result.error = left.sum / static_cast<double>(s.n);
     result.error_max = left.greatest;
     result.converged = result.error <= method.error && result.iterations >= method.min_iterations;
+    if (result.converged || result.iterations >= method.max_iterations) return result;
+    pressure.swap(scratch.next);
   }
-  return result;
 }
 
 PressureResult solve(const Pressure& method, const StepView& s, const Array3& predicted_velocity, double dt,

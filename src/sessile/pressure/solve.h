@@ -21,6 +21,7 @@ struct PressureScratch {
   Array<Real> stress;          ///< p_i/rho_i^2 of that acceleration
   Array<Real> advected;        ///< advected density over rest density
   Array<Real> diagonal;        ///< a_ii
+  Array<Real> next;            ///< pressures that an iteration makes
 };
 
 /// Finds the pressure p / rho0 [m^2/s^2] whose acceleration, over dt, takes the compression out of the motion with the
