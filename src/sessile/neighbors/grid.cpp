@@ -29,7 +29,7 @@ GridShape GridShape::make(double support_radius, const Vec3d& origin, const Vec3
   const auto axis = [&](double start, double length) {
     GridAxis made{start, support_radius * cell_margin, 0, 0};
     if (length > 0) {
-      made.ring = static_cast<std::int64_t>(length / made.cell);
+      made.ring = std::max<std::int64_t>(1, static_cast<std::int64_t>(length / made.cell));
       made.cell = length / static_cast<double>(made.ring);
     }
     made.inverse_cell = 1 / made.cell;
@@ -179,17 +179,26 @@ int Grid::around(const std::array<std::int64_t, 3>& cell, Cursor& cursor, std::s
   // Stretches of cells along x: one, or two where a periodic face cuts the row.
   std::array<std::array<std::int64_t, 2>, 2> stretches{{{cell[0] - 1, cell[0] + 1}, {0, -1}}};
   int stretch_count = 1;
-  if (ring[0] > 0 && (cell[0] == 0 || cell[0] == ring[0] - 1)) {
-    const bool low_face = cell[0] == 0;
-    stretches[0] = {low_face ? 0 : cell[0] - 1, low_face ? 1 : cell[0]};
-    stretches[1] = low_face ? std::array{ring[0] - 1, ring[0] - 1} : std::array<std::int64_t, 2>{0, 0};
+  if (ring[0] > 0 && ring[0] <= 3) {
+    stretches[0] = {0, ring[0] - 1};
+  } else if (ring[0] > 0 && cell[0] == 0) {
+    stretches = {{{0, 1}, {ring[0] - 1, ring[0] - 1}}};
+    stretch_count = 2;
+  } else if (ring[0] > 0 && cell[0] == ring[0] - 1) {
+    stretches = {{{cell[0] - 1, cell[0]}, {0, 0}}};
     stretch_count = 2;
   }
+  // A ring of one or two cells holds each neighbouring cell once, not three times.
+  const auto seen_before = [](std::int64_t around_ring, int offset) {
+    return (around_ring == 1 && offset != 0) || (around_ring == 2 && offset == 1);
+  };
 
   int found = 0;
   for (int row = 0; row < 9; ++row) {
-    const std::int64_t y = wrap(cell[1] + row % 3 - 1, ring[1]);
-    const std::int64_t z = wrap(cell[2] + row / 3 - 1, ring[2]);
+    const int dy = row % 3 - 1, dz = row / 3 - 1;
+    if (seen_before(ring[1], dy) || seen_before(ring[2], dz)) continue;
+    const std::int64_t y = wrap(cell[1] + dy, ring[1]);
+    const std::int64_t z = wrap(cell[2] + dz, ring[2]);
     const std::int64_t ny = axes_[1].number_at_or_after(y), nz = axes_[2].number_at_or_after(z);
     if (ny != axes_[1].number_at_or_before(y) || nz != axes_[2].number_at_or_before(z)) continue;
     for (int s = 0; s < stretch_count; ++s) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+
 #include "sessile/core/parallel.h"
 #include "sessile/scene/sampling.h"
 
@@ -9,7 +10,6 @@ namespace sessile {
 
 LayerSource::LayerSource(const Emitter& emitter, double spacing, const Space& space)
     : emitter_(emitter), space_(space), clearance_(static_cast<Real>(0.9 * spacing)) {
-  std::sort(emitter_.times.begin(), emitter_.times.end());
   Array3 unsorted;
   for (const Vec3d& place : layer(emitter, spacing)) unsorted.push_back(vec_cast<Real>(place));
   grid_.build(unsorted, GridShape::make(spacing, {}, vec_cast<double>(space.period)));
