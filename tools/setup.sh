@@ -19,7 +19,7 @@ fi
 wanted=$(awk -v groups=" $* " '$1 !~ /^#/ && index(groups, " " $2 " ") {print $1}' tools/packages.txt)
 [ -n "$wanted" ] || fail "no such group in tools/packages.txt: $*"
 present=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | awk '$2 == "installed" {print $1}' || true)
-missing=$(comm -23 <(sort -u <<<"$wanted") <(sort -u <<<"$present") | paste -sd ' ')
+missing=$(for package in $wanted; do grep -qxF "$package" <<<"$present" || echo "$package"; done | paste -sd ' ')
 [ -n "$missing" ] || exit 0
 
 as_root=()
