@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -63,7 +64,15 @@ void Simulation::look_around() {
   }
   const Stopwatch watch(stage_times_.density);
   compute_density(view(), density_);
-  compute_normals(view(), normal_);
+  const bool wanted = std::any_of(scene_.forces.begin(), scene_.forces.end(), [](const Force& force) {
+    return std::visit([](const auto& model) { return model.uses_normals; }, force);
+  });
+  const auto& columns = scene_.output.columns;
+  if (wanted || std::find(columns.begin(), columns.end(), "normal") != columns.end()) {
+    compute_normals(view(), normal_);
+  } else {
+    normal_.assign(particles_.size(), {});
+  }
 }
 
 void Simulation::accelerate() {

@@ -8,7 +8,7 @@
 namespace sessile {
 namespace {
 
-// VALIDATION: 1e-6 in float, 1e-12 in double.
+// 1e-6 in float, 1e-12 in double.
 constexpr double antisymmetry = sizeof(Real) == 4 ? 1e-6 : 1e-12;
 constexpr double rounding = sizeof(Real) == 4 ? 2e-6 : 1e-13;
 
@@ -129,7 +129,7 @@ TEST(SurfaceFeature, AdhesionForceIsThePrintedOne) {
 }
 
 TEST(SurfaceFeature, MacroscopicTensionIsTheFormula) {
-  // MODEL, section 3: both tabled strengths give 119 N/m at dx = 0.1 m.
+  // docs/model.md: both tabled strengths give 119 N/m at dx = 0.1 m.
   EXPECT_NEAR((SurfaceFeature{7.4, 1, 500, Direction::displacement}.tension(1000, 0.2)), 119, 0.5);
   EXPECT_NEAR((SurfaceFeature{1, 1, 60, Direction::unit}.tension(1000, 0.2)), 119, 0.5);
 }
@@ -147,7 +147,7 @@ TEST(Viscosity, ConservesMomentumAndSlowsDown) {
 }
 
 TEST(Viscosity, IsTheLaplacianOnAShearedLattice) {
-  // v_x = z^2 has the Laplacian 2; MODEL, section 5: this form gives 0.99 of it on a cubic lattice at h = 2 dx.
+  // v_x = z^2 has the Laplacian 2; docs/model.md: this form gives 0.99 of it on a cubic lattice at h = 2 dx.
   test::Cloud cloud = test::lattice(9, 0);
   for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
     const Real z = cloud.particles.position[i].z;

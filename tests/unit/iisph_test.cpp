@@ -59,7 +59,7 @@ TEST(Iisph, DiagonalIsTheDerivativeForUnequalMasses) {
 }
 
 TEST(Iisph, DiagonalOfACubicLatticeIsTheTabledOne) {
-  // MODEL, section 2: a_ii/dt^2 = -42.5 at dx = 0.1 m (times rho0 / rho0, as pressures are over rho0 here: -42.5 * 1000
+  // docs/model.md: a_ii/dt^2 = -42.5 at dx = 0.1 m (times rho0 / rho0, as pressures are over rho0 here: -42.5 * 1000
   // kg/m^3 per Pa becomes -42.5 per m^2/s^2 over rho0).
   test::Cloud cloud = test::lattice(9, 0);
   cloud.look_around();

@@ -36,7 +36,7 @@ TEST(TimeStep, EachBoundIsItsFormula) {
 }
 
 TEST(TimeStep, CapillaryBoundIsTheTabledOneForWater) {
-  // MODEL, section 5: dx = 1 mm 1.48 ms, 0.25 mm 0.185 ms, 0.1 mm 47 us, before the factor.
+  // docs/model.md: dx = 1 mm 1.48 ms, 0.25 mm 0.185 ms, 0.1 mm 47 us, before the factor.
   TimeSettings settings = wide();
   settings.capillary_factor = 1;
   for (const auto& [dx, expected] : {std::pair{1e-3, 1.48e-3}, {0.25e-3, 0.185e-3}, {0.1e-3, 47e-6}}) {

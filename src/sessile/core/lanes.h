@@ -102,7 +102,7 @@ inline IndexLanes load_indices(const std::int32_t* list) {
 }
 
 /// The numbers data[j] of the lanes' indices. xsimd 8.1 picks its element-by-element gather even where the processor has
-/// one (4 times slower in a pass), so the instruction is named here.
+/// one (a pass then takes twice as long), so the instruction is named here.
 inline Lanes gather(const Real* data, const IndexLanes& j) {
 #if defined(SESSILE_DOUBLE)
   return Lanes::gather(data, j);

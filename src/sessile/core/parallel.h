@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace sessile {
@@ -35,6 +36,7 @@ void for_each(std::size_t n, const Kernel& kernel) {
 /// Joins value(i) for i = 0 ... n-1 with join(a, b), in an order that does not depend on the number of threads.
 template <class T, class Value, class Join>
 T reduce(std::size_t n, const T& start, const Value& value, const Join& join) {
+  static_assert(!std::is_same_v<T, bool>, "threads cannot write neighbouring bits of a std::vector<bool>");
   std::vector<T> parts(static_cast<std::size_t>(block_count(n)), start);
   for_each_block(n, [&](std::ptrdiff_t block, std::ptrdiff_t begin, std::ptrdiff_t end) {
     T part = start;

@@ -59,7 +59,6 @@ Real squared_distances(const Cloud& cloud, std::size_t i, const Array3& others, 
   Real* result = distances.data();
   Real least = std::numeric_limits<Real>::infinity();
   const std::size_t count = row.size();
-#pragma omp simd reduction(min : least)
   for (std::size_t k = 0; k < count; ++k) {
     const std::int32_t j = index[k];
     result[k] = squared_length(space.displacement(xi, {x[j], y[j], z[j]}));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 #include "sessile/core/parallel.h"
 #include "sessile/scene/sampling.h"
 
@@ -57,7 +56,7 @@ bool LayerSource::taken(const Particles& particles) const {
     }
     return false;
   };
-  return reduce(particles.size(), false, close, [](bool a, bool b) { return a || b; });
+  return maximum(particles.size(), [&](int i) { return close(i) ? 1.0 : 0.0; }) > 0;
 }
 
 Emission LayerSource::emit(double time, Particles& particles, std::int64_t& next_id) {

@@ -9,7 +9,7 @@
 namespace sessile {
 
 /// The fluid's particles as a structure of arrays. Holds what must survive from step to step, and nothing else:
-/// what a step derives (density, normals, accelerations) belongs to its Scratch.
+/// what a step derives (density, normals, accelerations) belongs to the Simulation.
 struct Particles {
   Array3 position;       ///< [m]
   Array3 velocity;       ///< [m/s]

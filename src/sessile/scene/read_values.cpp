@@ -12,7 +12,7 @@ namespace sessile {
 
 namespace {
 
-std::string with_unit(std::string text, std::string_view unit) {
+std::string with_unit(const std::string& text, std::string_view unit) {
   return unit.empty() ? text : text + " " + std::string(unit);
 }
 

@@ -23,7 +23,7 @@ struct TimeStep {
   std::string_view overruled;  ///< the stability bound that dt_min or a fixed dt exceeds, or ""
 };
 
-/// The largest step that every bound allows (MODEL, section 5):
+/// The largest step that every bound allows (docs/model.md):
 ///   cfl dx/|v|max,  force sqrt(dx/|a|max),  viscosity rho0 dx^2/mu,  capillary sqrt(rho0 dx^3/(2 pi sigma)),
 /// kept in [dt_min, dt_max] and growing at most by `growth` over `last` (0: no step yet).
 TimeStep choose_time_step(const TimeSettings& settings, const MotionScale& scale, double last);
