@@ -38,7 +38,8 @@ struct TimeSettings {
         field(&T::dt_max, "dt_max", "s", positive, "greatest time step"),
         field(&T::growth, "growth", "", between(1, 2), "most that a step may grow over the one before"),
         field(&T::cfl, "cfl", "", positive, "dt <= cfl * dx / |v|max"),
-        field(&T::force_factor, "force_factor", "", positive, "dt <= force_factor * sqrt(dx / |a|max), a without pressure"),
+        field(&T::force_factor, "force_factor", "", positive,
+              "dt <= force_factor * sqrt(dx / |a|max), a without pressure"),
         field(&T::viscosity_factor, "viscosity_factor", "", positive, "dt <= viscosity_factor * rho0 dx^2 / mu"),
         field(&T::capillary_factor, "capillary_factor", "", positive,
               "dt <= capillary_factor * sqrt(rho0 dx^3 / (2 pi sigma))"),
@@ -80,7 +81,8 @@ struct Body {
         field(&T::velocity, "velocity", "m/s", any_number, "velocity at the start"),
         field(&T::spin, "spin", "rad/s", any_number, "angular velocity at the start, about the placement's position"),
         field(&T::mass_factor, "mass_factor", "", positive, "particle mass over rho0 dx^3"),
-        field(&T::jitter, "jitter", "", between(0, 0.5), "random shift of each particle, at most this share of dx per axis"),
+        field(&T::jitter, "jitter", "", between(0, 0.5),
+              "random shift of each particle, at most this share of dx per axis"),
         field(&T::seed, "seed", "", non_negative, "seed of the jitter"),
     };
   }

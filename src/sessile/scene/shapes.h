@@ -8,7 +8,8 @@
 #include "sessile/core/fields.h"
 #include "sessile/core/vec.h"
 
-/// The shapes a scene is made of. Each is centred on its own origin, in its own axes; a Placement puts it into the world.
+/// The shapes a scene is made of. Each is centred on its own origin, in its own axes; a Placement puts it into the
+/// world.
 namespace sessile {
 
 /// Where a shape stands: first turned about `axis` by `angle`, then moved to `position`.
