@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "sessile/core/error.h"
-#include "sessile/output/check.h"
+#include "prepare.h"
 #include "sessile/scene/describe.h"
-#include "sessile/scene/read.h"
-#include "sessile/simulation.h"
 
 namespace sessile::app {
 namespace {
@@ -34,9 +31,8 @@ void print_derived(const Simulation& simulation) {
 }
 
 void check(const CheckOptions& options) {
-  const ResolvedScene resolved = read_resolved_scene(options.scene, options.overrides);
-  if (auto faults = check_output(resolved.scene); !faults.empty()) throw SceneError(std::move(faults));
-  const Simulation simulation(resolved.scene);  // finds what only sampling shows: overlaps, meshes, memory
+  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
+  const Simulation simulation = set_up(resolved, options.scene);
   if (options.json) {
     fmt::print("{}\n", to_json(resolved.scene));
     return;
@@ -52,7 +48,9 @@ void add_check(CLI::App& program, int&) {
   CLI::App* command = program.add_subcommand("check", "Validate a scene and print every parameter as it would run.");
   command->add_option("scene", options->scene, "scene file")->required()->type_name("SCENE");
   command->add_option("--set", options->overrides, "put a value over the scene's, e.g. time.end=2")
-      ->type_name("PATH=VALUE")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--json", options->json, "print the resolved scene as JSON, itself a scene file");
   command->callback([options] { check(*options); });
 }

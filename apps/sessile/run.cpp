@@ -6,12 +6,10 @@
 #include <optional>
 
 #include "commands.h"
+#include "prepare.h"
 #include "progress.h"
 #include "recorder.h"
-#include "sessile/core/error.h"
-#include "sessile/output/check.h"
 #include "sessile/scene/describe.h"
-#include "sessile/scene/read.h"
 #include "sessile/version.h"
 
 namespace sessile::app {
@@ -80,12 +78,11 @@ int run(RunOptions options) {
   if (options.folder.empty()) {
     options.folder = (std::filesystem::path("results") / std::filesystem::path(options.scene).stem()).string();
   }
-  const ResolvedScene resolved = read_resolved_scene(options.scene, options.overrides);
-  if (auto faults = check_output(resolved.scene); !faults.empty()) throw SceneError(std::move(faults));
+  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
 
   const auto start = std::chrono::steady_clock::now();
   const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  Simulation simulation(resolved.scene);
+  Simulation simulation = set_up(resolved, options.scene);
   Recorder recorder(options.folder, simulation);
   Progress progress(progress_style(options.progress));
   Warnings warnings;
