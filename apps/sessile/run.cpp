@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <optional>
 
@@ -50,9 +52,10 @@ class Warnings {
     }
     if (!last.converged && !said_unconverged_) {
       said_unconverged_ = true;
-      progress.warn(fmt::format("at {:.4g} s the pressure solve ended at its {} iterations with an average density error "
-                                "of {:.3g} %",
-                                simulation.time(), last.iterations, 100 * last.predicted_error));
+      progress.warn(
+          fmt::format("at {:.4g} s the pressure solve ended at its {} iterations with an average density error "
+                      "of {:.3g} %",
+                      simulation.time(), last.iterations, 100 * last.predicted_error));
     }
   }
 
@@ -60,11 +63,20 @@ class Warnings {
   bool said_overruled_ = false, said_unconverged_ = false;
 };
 
+/// Says here what the range check of time.end would say under a name that the user did not type.
+std::string finite_and_positive(const std::string& word) {
+  double value = 0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc::invalid_argument || rest != word.data() + word.size()) return {};  // no number: CLI11 says so
+  if (error != std::errc{} || !std::isfinite(value)) return word + " is not a finite number";
+  return value > 0 ? "" : "must be above 0 s, found " + word;
+}
+
 void print_end(const Simulation& simulation, const std::string& folder, std::int64_t frames, double wall) {
   const Totals& totals = simulation.totals();
   const auto steps = static_cast<double>(std::max<std::int64_t>(totals.steps, 1));
-  fmt::print("{} steps to {:.4g} s in {:.1f} s of wall time, {:.2f} ms a step, {:.1f} iterations a step\n", totals.steps,
-             simulation.time(), wall, 1e3 * wall / steps, static_cast<double>(totals.iterations) / steps);
+  fmt::print("{} steps to {:.4g} s in {:.1f} s of wall time, {:.2f} ms a step, {:.1f} iterations a step\n",
+             totals.steps, simulation.time(), wall, 1e3 * wall / steps, static_cast<double>(totals.iterations) / steps);
   fmt::print("{} particles, {} out, {} lost", simulation.particles().size(), totals.out, totals.lost);
   if (totals.unconverged_solves > 0) fmt::print("; {} solves above their error", totals.unconverged_solves);
   if (totals.overruled_steps > 0) fmt::print("; {} steps above a stability bound", totals.overruled_steps);
@@ -83,13 +95,13 @@ int run(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   Simulation simulation = set_up(resolved, options.scene);
+  stop_on_signals();  // only now: until here nothing is written, and a signal may end the program at once
   Recorder recorder(options.folder, simulation);
   Progress progress(progress_style(options.progress));
   Warnings warnings;
   RunFacts facts;
   facts.version = version();
   facts.scene_json = to_json(resolved.scene);
-  stop_on_signals();
   try {
     while (!simulation.finished() && !stop_asked) {
       simulation.step();
@@ -127,12 +139,18 @@ void add_run(CLI::App& program, int& exit_code) {
   command->add_option("-o,--output", options->folder, "folder for the results (default: results/<scene>)")
       ->type_name("DIR");
   command->add_option("--set", options->overrides, "put a value over the scene's, e.g. time.fixed_dt=0.002")
-      ->type_name("PATH=VALUE")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--until", options->until, "end at this simulated time")->type_name("SECONDS");
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--until", options->until, "end at this simulated time, in place of the scene's time.end")
+      ->type_name("SECONDS")
+      ->check(finite_and_positive, "");
   command->add_option("--threads", options->threads, "threads to use (default: all)")
-      ->type_name("N")->check(CLI::Range(1, 1024));
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
   command->add_option("--progress", options->progress, "how progress is shown")
-      ->check(CLI::IsMember({"auto", "plain", "json", "none"}))->capture_default_str();
+      ->check(CLI::IsMember({"auto", "plain", "json", "none"}))
+      ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
