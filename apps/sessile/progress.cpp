@@ -17,6 +17,14 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
+/// A line of JSON for a program that reads along.
+void print_line(const Json::Value& line) {
+  Json::StreamWriterBuilder compact;
+  compact["indentation"] = "";
+  fmt::print("{}\n", Json::writeString(compact, line));
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 ProgressStyle progress_style(const std::string& word) {
@@ -54,10 +62,7 @@ void Progress::show(const Simulation& simulation) {
     line["particles"] = static_cast<Json::UInt64>(simulation.particles().size());
     line["steps_per_second"] = rate;
     line["seconds_left"] = left;
-    Json::StreamWriterBuilder compact;
-    compact["indentation"] = "";
-    fmt::print("{}\n", Json::writeString(compact, line));
-    std::fflush(stdout);
+    print_line(line);
     return;
   }
   const std::string line = fmt::format(
@@ -84,6 +89,13 @@ void Progress::finish() {
 }
 
 void Progress::warn(const std::string& message) {
+  if (style_ == ProgressStyle::none) return;  // the lines at the end and the summary count what was warned of
+  if (style_ == ProgressStyle::json) {
+    Json::Value line;
+    line["warning"] = message;
+    print_line(line);
+    return;
+  }
   finish();
   fmt::print(stderr, "warning: {}\n", message);
 }
