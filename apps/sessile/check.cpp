@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "prepare.h"
+#include "say.h"
 #include "sessile/scene/describe.h"
 
 namespace sessile::app {
@@ -14,31 +15,32 @@ struct CheckOptions {
 };
 
 /// What follows from the parameters: sizes and the bounds that are known before a run.
-void print_derived(const Simulation& simulation) {
+std::string derived(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   double tension = 0;
   for (const Force& force : scene.forces) {
     tension += std::visit(
         [&](const auto& model) { return model.tension(scene.fluid.rest_density, scene.support_radius()); }, force);
   }
-  fmt::print("\nderived\n");
-  fmt::print("  particles at the start      {}\n", simulation.particles().size());
-  fmt::print("  boundary particles          {}\n", simulation.walls().size());
-  fmt::print("  support radius              {:g} m\n", scene.support_radius());
-  fmt::print("  particle mass               {:g} kg\n", simulation.units().particle_mass());
-  fmt::print("  macroscopic surface tension {:g} N/m\n", tension);
-  fmt::print("  memory at the start         {:.1f} MiB\n", static_cast<double>(simulation.bytes()) / (1 << 20));
+  std::string text = "\nderived\n";
+  text += fmt::format("  particles at the start      {}\n", simulation.particles().size());
+  text += fmt::format("  boundary particles          {}\n", simulation.walls().size());
+  text += fmt::format("  support radius              {:g} m\n", scene.support_radius());
+  text += fmt::format("  particle mass               {:g} kg\n", simulation.units().particle_mass());
+  text += fmt::format("  macroscopic surface tension {:g} N/m\n", tension);
+  text +=
+      fmt::format("  memory at the start         {:.1f} MiB\n", static_cast<double>(simulation.bytes()) / (1 << 20));
+  return text;
 }
 
 void check(const CheckOptions& options) {
   const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
   const Simulation simulation = set_up(resolved, options.scene);
   if (options.json) {
-    fmt::print("{}\n", to_json(resolved.scene));
+    say(stdout, to_json(resolved.scene) + "\n");
     return;
   }
-  fmt::print("{}", describe(resolved));
-  print_derived(simulation);
+  say(stdout, describe(resolved) + derived(simulation));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <new>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "say.h"
 #include "sessile/core/error.h"
 #include "sessile/scene/spelling.h"
 #include "sessile/version.h"
@@ -58,19 +60,24 @@ int main(int argc, char** argv) {
     if (unknown.empty()) {
       program.exit(e);
     } else {
-      fmt::print(stderr, "{}\nRun with --help for more information.\n", unknown);
+      app::say(stderr, fmt::format("{}\nRun with --help for more information.\n", unknown));
     }
     return app::bad_input;
   } catch (const CLI::ParseError& e) {
     return program.exit(e) == 0 ? app::done : app::bad_input;
   } catch (const SceneError& e) {
-    for (const std::string& line : e.messages) fmt::print(stderr, "{}\n", line);
+    for (const std::string& line : e.messages) app::say(stderr, fmt::format("{}\n", line));
     return app::bad_input;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "sessile: out of memory\n");
+    app::say(stderr, "sessile: out of memory\n");
     return app::run_failed;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "sessile: {}\n", e.what());
+    app::say(stderr, fmt::format("sessile: {}\n", e.what()));
+    return app::run_failed;
+  }
+  // What the other commands print is all they are for; a run has its files.
+  if (!program.got_subcommand("run") && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
+    app::say(stderr, "sessile: cannot write to standard output\n");
     return app::run_failed;
   }
   return exit_code;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "say.h"
+
 namespace sessile::app {
 namespace {
 
@@ -21,8 +23,7 @@ std::string duration_text(double seconds) {
 void print_line(const Json::Value& line) {
   Json::StreamWriterBuilder compact;
   compact["indentation"] = "";
-  fmt::print("{}\n", Json::writeString(compact, line));
-  std::fflush(stdout);
+  say(stdout, Json::writeString(compact, line) + "\n");
 }
 
 }  // namespace
@@ -70,12 +71,11 @@ void Progress::show(const Simulation& simulation) {
       100 * share, time, end, simulation.totals().steps, last.dt, last.bound, last.iterations,
       simulation.particles().size(), rate, duration_text(left));
   if (style_ == ProgressStyle::terminal) {
-    fmt::print(stderr, "\r\033[K{}", line);
+    say(stderr, "\r\033[K" + line);
     line_open_ = true;
   } else {
-    fmt::print(stderr, "{}\n", line);
+    say(stderr, line + "\n");
   }
-  std::fflush(stderr);
 }
 
 void Progress::finish(const Simulation& simulation) {
@@ -84,7 +84,7 @@ void Progress::finish(const Simulation& simulation) {
 }
 
 void Progress::finish() {
-  if (line_open_) fmt::print(stderr, "\n");
+  if (line_open_) say(stderr, "\n");
   line_open_ = false;
 }
 
@@ -97,7 +97,7 @@ void Progress::warn(const std::string& message) {
     return;
   }
   finish();
-  fmt::print(stderr, "warning: {}\n", message);
+  say(stderr, "warning: " + message + "\n");
 }
 
 }  // namespace sessile::app

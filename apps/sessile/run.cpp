@@ -11,6 +11,7 @@
 #include "prepare.h"
 #include "progress.h"
 #include "recorder.h"
+#include "say.h"
 #include "sessile/scene/describe.h"
 #include "sessile/version.h"
 
@@ -37,6 +38,7 @@ void stop_on_signals() {
   };
   std::signal(SIGINT, ask);
   std::signal(SIGTERM, ask);
+  std::signal(SIGPIPE, [](int) { stop_asked = 1; });  // whoever read along has gone, as with Ctrl-C
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then is an error of the write, with a sentence
 }
 
@@ -75,13 +77,15 @@ std::string finite_and_positive(const std::string& word) {
 void print_end(const Simulation& simulation, const std::string& folder, std::int64_t frames, double wall) {
   const Totals& totals = simulation.totals();
   const auto steps = static_cast<double>(std::max<std::int64_t>(totals.steps, 1));
-  fmt::print("{} steps to {:.4g} s in {:.1f} s of wall time, {:.2f} ms a step, {:.1f} iterations a step\n",
-             totals.steps, simulation.time(), wall, 1e3 * wall / steps, static_cast<double>(totals.iterations) / steps);
-  fmt::print("{} particles, {} out, {} lost", simulation.particles().size(), totals.out, totals.lost);
-  if (totals.unconverged_solves > 0) fmt::print("; {} solves above their error", totals.unconverged_solves);
-  if (totals.overruled_steps > 0) fmt::print("; {} steps above a stability bound", totals.overruled_steps);
-  if (totals.waits > 0) fmt::print("; {} layers had to wait", totals.waits);
-  fmt::print("\n{} frames, stats.csv and summary.json are in {}\n", frames, folder);
+  std::string text = fmt::format(
+      "{} steps to {:.4g} s in {:.1f} s of wall time, {:.2f} ms a step, {:.1f} iterations a step\n", totals.steps,
+      simulation.time(), wall, 1e3 * wall / steps, static_cast<double>(totals.iterations) / steps);
+  text += fmt::format("{} particles, {} out, {} lost", simulation.particles().size(), totals.out, totals.lost);
+  if (totals.unconverged_solves > 0) text += fmt::format("; {} solves above their error", totals.unconverged_solves);
+  if (totals.overruled_steps > 0) text += fmt::format("; {} steps above a stability bound", totals.overruled_steps);
+  if (totals.waits > 0) text += fmt::format("; {} layers had to wait", totals.waits);
+  text += fmt::format("\n{} frames, stats.csv and summary.json are in {}\n", frames, folder);
+  say(stdout, text);
 }
 
 int run(RunOptions options) {
@@ -125,7 +129,7 @@ int run(RunOptions options) {
   progress.finish(simulation);
   facts.wall_time = wall();
   recorder.finish(simulation, facts);
-  if (stop_asked) fmt::print(stderr, "interrupted; everything up to {:.4g} s is written\n", simulation.time());
+  if (stop_asked) say(stderr, fmt::format("interrupted; everything up to {:.4g} s is written\n", simulation.time()));
   if (options.progress != "json") print_end(simulation, options.folder, recorder.frames(), wall());
   return stop_asked ? interrupted : done;
 }

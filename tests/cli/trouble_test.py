@@ -15,7 +15,7 @@ class Good(CliTest):
         self.assertEqual([n for n in self.names(folder) if n.startswith(".")], [], "temporary files stayed behind")
         frames = read_pvd(self.folder / folder / "frames.pvd")
         self.assertEqual(len(frames), summary["frames"])
-        self.assertEqual(len(frames), len([n for n in self.names(folder) if n.startswith("frame_")]))
+        self.assertEqual(len(frames), len(list((self.folder / folder).glob("frame_*.vtp"))))
         for when, name in frames:
             self.assertEqual(read_vtp(self.folder / folder / name)[2], when)
         with open(self.folder / folder / "stats.csv", newline="") as file:
@@ -47,6 +47,32 @@ class Interrupted(Good):
 
     def test_by_the_system(self):
         self.interrupt(signal.SIGTERM)
+
+
+class NobodyReads(Good):
+    """Who reads along may go; the run then ends as with Ctrl-C, and what is written stays good."""
+
+    def run_until_nobody_reads(self, style, stream, scene):
+        process = self.start("run", self.write(scene), "-o", "out", "--progress", style)
+        if style == "json":
+            process.stdout.readline()
+        getattr(process, stream).close()
+        self.assertEqual(process.wait(timeout=30), INTERRUPTED)
+        self.expect_good_results("out", "interrupted")
+
+    def test_the_progress(self):
+        self.run_until_nobody_reads("json", "stdout", tiny(time={"end": 1e4, "fixed_dt": 0.005}))
+
+    def test_the_warnings(self):
+        self.run_until_nobody_reads("plain", "stderr", tiny(time={"end": 1e6, "fixed_dt": 0.5}, output={"frame_interval": 5}))
+
+    def test_streams_on_a_full_disk(self):
+        scene = self.write(tiny())
+        self.call("run", scene, "-o", "out", "--progress", "plain", before="exec >/dev/full 2>/dev/full")
+        self.expect_good_results("out", "done")
+        for command in (["check", scene], ["check", "--json", scene], ["info"], ["models"]):
+            _, err = self.call(*command, code=FAILED, before="exec >/dev/full")
+            self.assertEqual(err, "sessile: cannot write to standard output\n")
 
 
 class NoFolder(CliTest):
