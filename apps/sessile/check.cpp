@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "sessile/core/error.h"
-#include "sessile/output/check.h"
+#include "prepare.h"
+#include "say.h"
 #include "sessile/scene/describe.h"
-#include "sessile/scene/read.h"
-#include "sessile/simulation.h"
 
 namespace sessile::app {
 namespace {
@@ -17,32 +15,32 @@ struct CheckOptions {
 };
 
 /// What follows from the parameters: sizes and the bounds that are known before a run.
-void print_derived(const Simulation& simulation) {
+std::string derived(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   double tension = 0;
   for (const Force& force : scene.forces) {
     tension += std::visit(
         [&](const auto& model) { return model.tension(scene.fluid.rest_density, scene.support_radius()); }, force);
   }
-  fmt::print("\nderived\n");
-  fmt::print("  particles at the start      {}\n", simulation.particles().size());
-  fmt::print("  boundary particles          {}\n", simulation.walls().size());
-  fmt::print("  support radius              {:g} m\n", scene.support_radius());
-  fmt::print("  particle mass               {:g} kg\n", simulation.units().particle_mass());
-  fmt::print("  macroscopic surface tension {:g} N/m\n", tension);
-  fmt::print("  memory at the start         {:.1f} MiB\n", static_cast<double>(simulation.bytes()) / (1 << 20));
+  std::string text = "\nderived\n";
+  text += fmt::format("  particles at the start      {}\n", simulation.particles().size());
+  text += fmt::format("  boundary particles          {}\n", simulation.walls().size());
+  text += fmt::format("  support radius              {:g} m\n", scene.support_radius());
+  text += fmt::format("  particle mass               {:g} kg\n", simulation.units().particle_mass());
+  text += fmt::format("  macroscopic surface tension {:g} N/m\n", tension);
+  text +=
+      fmt::format("  memory at the start         {:.1f} MiB\n", static_cast<double>(simulation.bytes()) / (1 << 20));
+  return text;
 }
 
 void check(const CheckOptions& options) {
-  const ResolvedScene resolved = read_resolved_scene(options.scene, options.overrides);
-  if (auto faults = check_output(resolved.scene); !faults.empty()) throw SceneError(std::move(faults));
-  const Simulation simulation(resolved.scene);  // finds what only sampling shows: overlaps, meshes, memory
+  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
+  const Simulation simulation = set_up(resolved, options.scene);
   if (options.json) {
-    fmt::print("{}\n", to_json(resolved.scene));
+    say(stdout, to_json(resolved.scene) + "\n");
     return;
   }
-  fmt::print("{}", describe(resolved));
-  print_derived(simulation);
+  say(stdout, describe(resolved) + derived(simulation));
 }
 
 }  // namespace
@@ -52,7 +50,9 @@ void add_check(CLI::App& program, int&) {
   CLI::App* command = program.add_subcommand("check", "Validate a scene and print every parameter as it would run.");
   command->add_option("scene", options->scene, "scene file")->required()->type_name("SCENE");
   command->add_option("--set", options->overrides, "put a value over the scene's, e.g. time.end=2")
-      ->type_name("PATH=VALUE")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--json", options->json, "print the resolved scene as JSON, itself a scene file");
   command->callback([options] { check(*options); });
 }

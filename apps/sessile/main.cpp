@@ -2,22 +2,39 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "commands.h"
+#include "say.h"
 #include "sessile/core/error.h"
+#include "sessile/scene/spelling.h"
 #include "sessile/version.h"
 
 namespace {
 
 /// Starts the program anew with OpenMP threads that sleep while they wait, unless the user has chosen otherwise. By
-/// default they spin: beside other work on the same cores, a step then takes up to 60 times longer (docs/decisions). The
-/// runtime reads its environment before main, hence the new start.
+/// default they spin: beside other work on the same cores, a step then takes up to 60 times longer (docs/decisions).
+/// The runtime reads its environment before main, hence the new start.
 void let_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   if (setenv("OMP_WAIT_POLICY", "passive", 0) == 0) execv("/proc/self/exe", argv);
   // Where that does not work, the program runs all the same.
+}
+
+/// What to say of a first word that is no command: CLI11 only says that a command is missing.
+std::string unknown_command(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || !program.get_subcommands().empty()) return {};
+  const std::string_view word = argv[1];
+  if (word.starts_with('-')) return {};
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  const std::vector<std::string_view> commands(names.begin(), names.end());
+  return "unknown command " + sessile::in_quotes(word) + sessile::spelling_hint(word, commands, "commands");
 }
 
 }  // namespace
@@ -28,8 +45,9 @@ int main(int argc, char** argv) {
   CLI::App program("Liquids at the scale where surface tension and adhesion rule.", "sessile");
   program.set_version_flag("--version", "sessile " + std::string(version()));
   program.require_subcommand(1);
-  program.footer("`sessile COMMAND --help` says more. Exit codes: 0 done, 1 the run failed, 2 wrong usage or scene, "
-                 "130 interrupted.");
+  program.footer(
+      "`sessile COMMAND --help` says more. Exit codes: 0 done, 1 the run failed, 2 wrong usage or scene, "
+      "130 interrupted.");
   int exit_code = app::done;
   app::add_run(program, exit_code);
   app::add_check(program, exit_code);
@@ -37,16 +55,29 @@ int main(int argc, char** argv) {
   app::add_models(program, exit_code);
   try {
     program.parse(argc, argv);
+  } catch (const CLI::RequiredError& e) {
+    const std::string unknown = unknown_command(program, argc, argv);
+    if (unknown.empty()) {
+      program.exit(e);
+    } else {
+      app::say(stderr, fmt::format("{}\nRun with --help for more information.\n", unknown));
+    }
+    return app::bad_input;
   } catch (const CLI::ParseError& e) {
     return program.exit(e) == 0 ? app::done : app::bad_input;
   } catch (const SceneError& e) {
-    for (const std::string& line : e.messages) fmt::print(stderr, "{}\n", line);
+    for (const std::string& line : e.messages) app::say(stderr, fmt::format("{}\n", line));
     return app::bad_input;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "sessile: out of memory\n");
+    app::say(stderr, "sessile: out of memory\n");
     return app::run_failed;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "sessile: {}\n", e.what());
+    app::say(stderr, fmt::format("sessile: {}\n", e.what()));
+    return app::run_failed;
+  }
+  // What the other commands print is all they are for; a run has its files.
+  if (!program.got_subcommand("run") && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
+    app::say(stderr, "sessile: cannot write to standard output\n");
     return app::run_failed;
   }
   return exit_code;

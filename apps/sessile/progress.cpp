@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "say.h"
+
 namespace sessile::app {
 namespace {
 
@@ -15,6 +17,13 @@ std::string duration_text(double seconds) {
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+/// A line of JSON for a program that reads along.
+void print_line(const Json::Value& line) {
+  Json::StreamWriterBuilder compact;
+  compact["indentation"] = "";
+  say(stdout, Json::writeString(compact, line) + "\n");
 }
 
 }  // namespace
@@ -54,10 +63,7 @@ void Progress::show(const Simulation& simulation) {
     line["particles"] = static_cast<Json::UInt64>(simulation.particles().size());
     line["steps_per_second"] = rate;
     line["seconds_left"] = left;
-    Json::StreamWriterBuilder compact;
-    compact["indentation"] = "";
-    fmt::print("{}\n", Json::writeString(compact, line));
-    std::fflush(stdout);
+    print_line(line);
     return;
   }
   const std::string line = fmt::format(
@@ -65,12 +71,11 @@ void Progress::show(const Simulation& simulation) {
       100 * share, time, end, simulation.totals().steps, last.dt, last.bound, last.iterations,
       simulation.particles().size(), rate, duration_text(left));
   if (style_ == ProgressStyle::terminal) {
-    fmt::print(stderr, "\r\033[K{}", line);
+    say(stderr, "\r\033[K" + line);
     line_open_ = true;
   } else {
-    fmt::print(stderr, "{}\n", line);
+    say(stderr, line + "\n");
   }
-  std::fflush(stderr);
 }
 
 void Progress::finish(const Simulation& simulation) {
@@ -79,13 +84,20 @@ void Progress::finish(const Simulation& simulation) {
 }
 
 void Progress::finish() {
-  if (line_open_) fmt::print(stderr, "\n");
+  if (line_open_) say(stderr, "\n");
   line_open_ = false;
 }
 
 void Progress::warn(const std::string& message) {
+  if (style_ == ProgressStyle::none) return;  // the lines at the end and the summary count what was warned of
+  if (style_ == ProgressStyle::json) {
+    Json::Value line;
+    line["warning"] = message;
+    print_line(line);
+    return;
+  }
   finish();
-  fmt::print(stderr, "warning: {}\n", message);
+  say(stderr, "warning: " + message + "\n");
 }
 
 }  // namespace sessile::app

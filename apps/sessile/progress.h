@@ -27,7 +27,7 @@ class Progress {
   /// Shows the last state and ends the line.
   void finish(const Simulation& simulation);
 
-  /// A warning on a line of its own.
+  /// A warning on a line of its own; as JSON where progress is; nothing where progress is none.
   void warn(const std::string& message);
 
  private:

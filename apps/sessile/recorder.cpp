@@ -2,7 +2,10 @@
 
 #include <chrono>
 #include <exception>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "sessile/core/error.h"
 #include "sessile/output/file.h"
@@ -19,22 +22,28 @@ double seconds_of(F&& f) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Makes the folder, and takes out the frames of an earlier run into it: left beside fewer new ones they would pass for
-/// theirs.
+/// Whether a file is of an earlier run, or half a one that a killed run left behind.
+bool is_result(std::string name) {
+  constexpr std::string_view part = ".part";
+  if (name.starts_with('.') && name.ends_with(part)) name = name.substr(1, name.size() - 1 - part.size());
+  if (name == "frames.pvd" || name == "summary.json") return true;
+  const auto dot = name.rfind('.');
+  const bool known = dot != std::string::npos && find_frame_format(name.substr(dot + 1)) != nullptr;
+  return known && (name.starts_with("frame_") || name.starts_with("solids."));
+}
+
+/// Makes the folder, and takes out the results of an earlier run into it: left beside fewer new ones they would pass
+/// for theirs. stats.csv is begun anew in any case.
 const std::filesystem::path& prepared(const std::filesystem::path& folder) {
   create_output_folder(folder);
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    const std::string extension = entry.path().extension().string();
-    if (name.rfind("frame_", 0) == 0 && find_frame_format(extension.empty() ? "" : extension.substr(1)) != nullptr) {
-      old.push_back(entry.path());
-    }
+    if (is_result(entry.path().filename().string())) old.push_back(entry.path());
   }
   for (const auto& file : old) {
     std::error_code error;
     if (!std::filesystem::remove(file, error) && error) {
-      throw FileError(file.string() + ": cannot remove this frame of an earlier run: " + error.message());
+      throw FileError(file.string() + ": cannot remove this result of an earlier run: " + error.message());
     }
   }
   return folder;

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "sessile/scene/fault.h"
 #include "sessile/scene/scene.h"
 
 namespace sessile {
 
-/// What is wrong with a scene's output formats and fields, one line each, such as
-/// `output.formats[1]: unknown format "vtk" (did you mean "vtp"?)`; empty when all is well.
-std::vector<std::string> check_output(const Scene& scene);
+/// Formats and fields that a scene's output names and that do not exist; validate() finds those listed twice.
+std::vector<Fault> check_output(const Scene& scene);
 
 }  // namespace sessile

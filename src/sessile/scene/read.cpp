@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -92,7 +93,8 @@ std::string ResolvedScene::locate(const Fault& fault) const {
   return place == places.end() ? text(fault) : line_for(place->second, fault.path, fault.message);
 }
 
-ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
+ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
+                                  const FurtherCheck& further) {
   SceneText text = SceneText::from_file(file);
   auto root = text.parse();
   if (!root) {
@@ -124,6 +126,7 @@ ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<c
   // What the parts make together, unless one of those parts is at fault already.
   if (root->isObject()) {
     auto together = validate(resolved.scene);
+    if (further) std::ranges::move(further(resolved.scene), std::back_inserter(together));
     std::erase_if(together, [&](const Fault& fault) { return lines.spoils(fault); });
     for (const auto& fault : together) {
       std::string path = fault.path;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "sessile/scene/fault.h"
 #include "sessile/scene/scene.h"
@@ -22,10 +24,14 @@ struct ResolvedScene {
   std::string locate(const Fault& fault) const;
 };
 
+/// Judges what the parts of a scene make together, beside validate(); such as check_output().
+using FurtherCheck = std::function<std::vector<Fault>(const Scene&)>;
+
 /// Reads a scene file and puts overrides, `path=value` each, over it. A value is read as JSON, or else taken as a text;
 /// paths of meshes are relative to the scene file.
 /// Throws SceneError with every fault of the file, of the overrides and of the scene they make (see validate.h).
-ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {},
+                                  const FurtherCheck& further = {});
 
 /// The scene alone.
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});

@@ -1,0 +1,64 @@
+"""Reads frames as far as a test must, without VTK: their particles, arrays and time."""
+import base64
+import xml.etree.ElementTree
+import zlib
+
+
+def read_pvd(path):
+    """The collection as [(time, file name)]."""
+    root = xml.etree.ElementTree.parse(path).getroot()
+    return [(float(entry.get("timestep")), entry.get("file")) for entry in root.iter("DataSet")]
+
+
+def read_vtp(path):
+    """(number of points, names of the point arrays, time). Every array must unpack to the length it should have."""
+    root = xml.etree.ElementTree.parse(path).getroot()
+    width = {"UInt32": 4, "UInt64": 8}[root.get("header_type")]
+    sizes = {"Float32": 4, "Float64": 8, "Int32": 4, "Int64": 8, "UInt8": 1, "UInt32": 4}
+    appended = root.find("AppendedData").text.strip()
+    assert appended.startswith("_")
+    appended = appended[1:]
+
+    def unpack(array):
+        at = int(array.get("offset"))
+        first = base64.b64decode(appended[at:at + 4 * ((width + 2) // 3)])
+        blocks = int.from_bytes(first[:width], "little")
+        head = width * (3 + blocks)
+        coded = 4 * ((head + 2) // 3)
+        numbers = base64.b64decode(appended[at:at + coded])
+        lengths = [int.from_bytes(numbers[width * (3 + k):width * (4 + k)], "little") for k in range(blocks)]
+        body = base64.b64decode(appended[at + coded:at + coded + 4 * ((sum(lengths) + 2) // 3)])
+        data, start = b"", 0
+        for length in lengths:
+            data += zlib.decompress(body[start:start + length])
+            start += length
+        return data
+
+    piece = root.find("PolyData/Piece")
+    points = int(piece.get("NumberOfPoints"))
+    names = []
+    for array in piece.findall("PointData/DataArray"):
+        names.append(array.get("Name"))
+        data = unpack(array)
+        wanted = points * int(array.get("NumberOfComponents", 1)) * sizes[array.get("type")]
+        assert len(data) == wanted, f"{path}: {names[-1]} has {len(data)} bytes instead of {wanted}"
+    place = piece.find("Points/DataArray")
+    assert len(unpack(place)) == points * 3 * sizes[place.get("type")]
+    time = [a for a in root.iter("DataArray") if a.get("Name") == "TimeValue"][0]
+    return points, names, float(time.text)
+
+
+def read_ply(path):
+    """Number of vertices; the file must be exactly as long as its header says."""
+    data = path.read_bytes()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    sizes = {"float": 4, "double": 8, "int": 4, "uint": 4, "uchar": 1}
+    count = stride = 0
+    for line in data[:end].decode().splitlines():
+        words = line.split()
+        if words[:2] == ["element", "vertex"]:
+            count = int(words[2])
+        if words[0] == "property":
+            stride += sizes[words[1]]
+    assert len(data) == end + count * stride, f"{path}: {len(data)} bytes"
+    return count
