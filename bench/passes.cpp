@@ -88,7 +88,8 @@ void surface_feature(benchmark::State& state) {
 
 void iisph_coefficients(benchmark::State& state) {
   PressureScratch scratch;
-  run(state, [&](const test::Cloud& c) { sessile::iisph_coefficients(c.view(), c.particles.velocity, 0.002, scratch); });
+  run(state,
+      [&](const test::Cloud& c) { sessile::iisph_coefficients(c.view(), c.particles.velocity, 0.002, scratch); });
 }
 
 void pressure_acceleration(benchmark::State& state) {

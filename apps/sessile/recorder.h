@@ -33,8 +33,8 @@ class Recorder {
   FrameWriter frames_;
   StatsWriter stats_;
   double frame_interval_, stats_interval_;
-  double frame_time_ = -1, stats_time_ = -1;        // of the last written state
-  std::int64_t frames_due_ = 0, stats_due_ = 0;     // how many intervals have been served
+  double frame_time_ = -1, stats_time_ = -1;     // of the last written state
+  std::int64_t frames_due_ = 0, stats_due_ = 0;  // how many intervals have been served
   double output_seconds_ = 0, measure_seconds_ = 0;
 };
 

@@ -31,9 +31,8 @@ class Stopwatch {
 };
 
 double greatest_length(const Array3& a) {
-  return std::sqrt(maximum(a.size(), [&](int i) {
-    return static_cast<double>(squared_length(a[static_cast<std::size_t>(i)]));
-  }));
+  return std::sqrt(
+      maximum(a.size(), [&](int i) { return static_cast<double>(squared_length(a[static_cast<std::size_t>(i)])); }));
 }
 
 }  // namespace
@@ -41,15 +40,15 @@ double greatest_length(const Array3& a) {
 // Algorithm 1 of the paper. Its first lines, neighbours, densities and normals of x(t), closed the step before (and the
 // constructor), so that whoever looks between two steps sees them up to date.
 void Simulation::step() {
-  accelerate();                         // all forces but pressure
-  const double dt = next_time_step();   // the largest that every bound allows
-  predict_velocities(dt);               // v* = v + dt a
-  solve_pressure(dt);                   // until rho(t + dt) <= rho0 on average
-  move(dt);                             // v = v* + dt a^p,  x = x + dt v
+  accelerate();                        // all forces but pressure
+  const double dt = next_time_step();  // the largest that every bound allows
+  predict_velocities(dt);              // v* = v + dt a
+  solve_pressure(dt);                  // until rho(t + dt) <= rho0 on average
+  move(dt);                            // v = v* + dt a^p,  x = x + dt v
   time_ += dt;
   take_out_what_left();
   let_in_new_layers();
-  look_around();                        // neighbours, densities, normals of x(t + dt)
+  look_around();  // neighbours, densities, normals of x(t + dt)
   ++totals_.steps;
 }
 
@@ -103,8 +102,8 @@ double Simulation::next_time_step() {
     scale.viscosity = std::max(scale.viscosity, static_cast<double>(nu) * units_.rest_density);
   }
   for (const Force& force : scene_.forces) {
-    scale.tension += std::visit(
-        [&](const auto& model) { return model.tension(units_.rest_density, units_.support_radius); }, force);
+    scale.tension +=
+        std::visit([&](const auto& model) { return model.tension(units_.rest_density, units_.support_radius); }, force);
   }
   const TimeStep chosen = choose_time_step(scene_.time, scale, last_step_.dt);
   last_step_.dt = chosen.dt;
@@ -125,8 +124,7 @@ void Simulation::predict_velocities(double dt) {
 
 void Simulation::solve_pressure(double dt) {
   const Stopwatch watch(stage_times_.pressure);
-  const PressureResult result =
-      solve(scene_.pressure, view(), particles_.velocity, dt, particles_.pressure, pressure_);
+  const PressureResult result = solve(scene_.pressure, view(), particles_.velocity, dt, particles_.pressure, pressure_);
   add_pressure_reaction(view(), pressure_.stress, walls_, walls_.forces);
   last_step_.iterations = result.iterations;
   last_step_.converged = result.converged;
@@ -165,9 +163,10 @@ void Simulation::move(double dt) {
       });
   totals_.lost += events.passages + events.not_finite;
   if (events.not_finite > 0) {
-    throw RunError(fmt::format("{} of {} particles have no finite position after the step of {:g} s at {:g} s: the step "
-                               "is too long for these forces",
-                               events.not_finite, particles_.size(), dt, time_));
+    throw RunError(
+        fmt::format("{} of {} particles have no finite position after the step of {:g} s at {:g} s: the step "
+                    "is too long for these forces",
+                    events.not_finite, particles_.size(), dt, time_));
   }
 }
 
@@ -193,8 +192,8 @@ void Simulation::take_out_what_left() {
     into_period(box.y, x.y, low.y, high.y);
     into_period(box.z, x.z, low.z, high.z);
     particles_.position.set(k, x);
-    const bool out = outside(box.x, x.x, low.x, high.x) || outside(box.y, x.y, low.y, high.y) ||
-                     outside(box.z, x.z, low.z, high.z);
+    const bool out =
+        outside(box.x, x.x, low.x, high.x) || outside(box.y, x.y, low.y, high.y) || outside(box.z, x.z, low.z, high.z);
     if (!out) staying.push_back(static_cast<std::int32_t>(k));
   }
   if (staying.size() == n) return;

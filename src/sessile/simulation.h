@@ -28,13 +28,13 @@ struct StageTimes {
 
 /// What the last step did.
 struct StepReport {
-  double dt = 0;                    ///< [s]
-  std::string_view bound;           ///< what set dt: cfl, force, viscosity, capillary, growth, dt_max, dt_min, fixed
-  std::string_view overruled;       ///< the stability bound that a fixed dt or dt_min exceeds, or ""
-  int iterations = 0;               ///< of the pressure solve
-  bool converged = true;            ///< whether the solve reached its error
-  double predicted_error = 0;       ///< average compression over rest density that the solver predicts
-  double predicted_error_max = 0;   ///< the greatest one
+  double dt = 0;                   ///< [s]
+  std::string_view bound;          ///< what set dt: cfl, force, viscosity, capillary, growth, dt_max, dt_min, fixed
+  std::string_view overruled;      ///< the stability bound that a fixed dt or dt_min exceeds, or ""
+  int iterations = 0;              ///< of the pressure solve
+  bool converged = true;           ///< whether the solve reached its error
+  double predicted_error = 0;      ///< average compression over rest density that the solver predicts
+  double predicted_error_max = 0;  ///< the greatest one
 };
 
 /// Counts since the start.
@@ -42,11 +42,11 @@ struct Totals {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::int64_t unconverged_solves = 0;
-  std::int64_t overruled_steps = 0;   ///< steps in which a fixed dt or dt_min exceeded a stability bound
-  std::int64_t emitted = 0;           ///< particles let in by emitters
-  std::int64_t waits = 0;             ///< layers that fell due while their place was taken
-  std::int64_t out = 0;               ///< particles that left an open domain
-  std::int64_t lost = 0;              ///< passages through a solid; a position that is not finite ends the run
+  std::int64_t overruled_steps = 0;  ///< steps in which a fixed dt or dt_min exceeded a stability bound
+  std::int64_t emitted = 0;          ///< particles let in by emitters
+  std::int64_t waits = 0;            ///< layers that fell due while their place was taken
+  std::int64_t out = 0;              ///< particles that left an open domain
+  std::int64_t lost = 0;             ///< passages through a solid; a position that is not finite ends the run
 };
 
 /// A liquid in motion: the state of a run and the paper's step.
@@ -70,7 +70,7 @@ class Simulation {
   const NeighborList& fluid_neighbors() const { return fluid_neighbors_; }  ///< fluid around each fluid particle
   const NeighborList& wall_neighbors() const { return wall_neighbors_; }    ///< wall samples around each fluid particle
   const Array<Real>& density() const { return density_; }                   ///< rho / rho0
-  const Array3& normal() const { return normal_; }  ///< n_i of (19), dimensionless
+  const Array3& normal() const { return normal_; }                          ///< n_i of (19), dimensionless
   const Units& units() const { return units_; }
   const Space& space() const { return space_; }  ///< displacements, across periodic faces too
 

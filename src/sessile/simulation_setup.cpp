@@ -30,9 +30,10 @@ void refuse_what_does_not_fit(const Scene& scene) {
   }
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (particles > 2e9 || particles * bytes_per_particle > memory) {
-    throw SceneError(fmt::format("the scene needs about {:.3g} particles and boundary particles, that is {:.3g} GiB; this "
-                                 "machine has {:.3g} GiB (a larger spacing needs fewer)",
-                                 particles, particles * bytes_per_particle / (1 << 30), memory / (1 << 30)));
+    throw SceneError(
+        fmt::format("the scene needs about {:.3g} particles and boundary particles, that is {:.3g} GiB; this "
+                    "machine has {:.3g} GiB (a larger spacing needs fewer)",
+                    particles, particles * bytes_per_particle / (1 << 30), memory / (1 << 30)));
   }
 }
 
@@ -82,13 +83,14 @@ std::vector<std::string> misplaced(const Array3& points, const std::vector<std::
       if (mine < theirs) faults.insert(fmt::format("{} and {} overlap", names[mine], names[theirs]));
     }
     const Vec3d x = vec_cast<double>(sorted[place]);
-    std::ptrdiff_t solid = std::find_if(solids.begin(), solids.end(), [&](const auto& s) { return s.contains(x); }) -
-                           solids.begin();
+    std::ptrdiff_t solid =
+        std::find_if(solids.begin(), solids.end(), [&](const auto& s) { return s.contains(x); }) - solids.begin();
     if (solid == static_cast<std::ptrdiff_t>(solids.size()) && touches.count(place) > 0) {
       solid = walls.solid[static_cast<std::size_t>(touches[place][0])];
     }
     if (solid < static_cast<std::ptrdiff_t>(solids.size())) {
-      ++inside[fmt::format("{} starts inside the solid \"{}\"", names[mine], walls.labels[static_cast<std::size_t>(solid)])];
+      ++inside[fmt::format("{} starts inside the solid \"{}\"", names[mine],
+                           walls.labels[static_cast<std::size_t>(solid)])];
     }
     if (scene.domain) {
       const Vec3d low = scene.domain->min, high = scene.domain->max;
@@ -144,8 +146,8 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
     sources_.emplace_back(scene_.emitters[k], scene_.spacing, space_);
     const Array3& places = sources_.back().places();
     for (auto& fault : misplaced(places, std::vector<std::size_t>(places.size(), 0),
-                                 {name_of(scene_.emitters[k].label, "emitters", k)}, scene_, walls_, solids_, wall_grid_,
-                                 grid_shape_, space_)) {
+                                 {name_of(scene_.emitters[k].label, "emitters", k)}, scene_, walls_, solids_,
+                                 wall_grid_, grid_shape_, space_)) {
       faults.push_back(std::move(fault));
     }
   }
@@ -186,7 +188,8 @@ Array3 Simulation::acceleration(std::string_view name) const {
 }
 
 std::size_t Simulation::bytes() const {
-  // position, velocity, normal, acceleration, pressure acceleration; mass, pressure, density, stress, advected, diagonal
+  // position, velocity, normal, acceleration, pressure acceleration; mass, pressure, density, stress, advected,
+  // diagonal
   const std::size_t arrays = particles_.size() * ((5 * 3 + 6) * sizeof(Real) + sizeof(std::int64_t));
   return arrays + walls_.bytes() + grid_.bytes() + wall_grid_.bytes() + fluid_neighbors_.bytes() +
          wall_neighbors_.bytes();

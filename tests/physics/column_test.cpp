@@ -20,10 +20,10 @@ double l2_error(const std::vector<double>& a, const std::vector<double>& b, std:
   return std::sqrt(squares / scale);
 }
 
-/// Hydrostatic column 20 dx deep: the pressure profile in bins of dx is rho g (H - z) to 2 % in L2, and the surface drifts
-/// less than dx/2. The error is taken beyond a support radius from the floor: one layer of boundary particles that mirror
-/// the particle's own pressure, as the paper's (5) has it, pushes with half of what a liquid layer would, so the
-/// pressure of the first layer is 1.5 times the column's. The error over all bins is printed beside it.
+/// Hydrostatic column 20 dx deep: the pressure profile in bins of dx is rho g (H - z) to 2 % in L2, and the surface
+/// drifts less than dx/2. The error is taken beyond a support radius from the floor: one layer of boundary particles
+/// that mirror the particle's own pressure, as the paper's (5) has it, pushes with half of what a liquid layer would,
+/// so the pressure of the first layer is 1.5 times the column's. The error over all bins is printed beside it.
 void check_column(double settle, double watch) {
   Scene scene = test::column(8, 20);
   const double dx = scene.spacing;
@@ -63,11 +63,12 @@ void check_column(double settle, double watch) {
     expected[k] = 1000 * 9.81 * (surface - height[k] / count[k]);
   }
   const double error = l2_error(pressure, expected, 3);
-  std::printf("hydrostatic column: L2 error %.2f %% (%.1f %% with the layers at the floor), drift %.3f dx, "
-              "%.1f iterations a step, kinetic energy %.2g J\n",
-              100 * error, 100 * l2_error(pressure, expected), (top(simulation) - before) / dx,
-              static_cast<double>(simulation.totals().iterations) / static_cast<double>(simulation.totals().steps),
-              test::kinetic_energy(simulation));
+  std::printf(
+      "hydrostatic column: L2 error %.2f %% (%.1f %% with the layers at the floor), drift %.3f dx, "
+      "%.1f iterations a step, kinetic energy %.2g J\n",
+      100 * error, 100 * l2_error(pressure, expected), (top(simulation) - before) / dx,
+      static_cast<double>(simulation.totals().iterations) / static_cast<double>(simulation.totals().steps),
+      test::kinetic_energy(simulation));
   EXPECT_LT(error, 0.02);
   // The floor carries the weight.
   const double weight = static_cast<double>(mean_height.size()) * simulation.units().particle_mass() * 9.81;

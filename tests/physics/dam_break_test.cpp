@@ -27,8 +27,8 @@ DamBreak collapse(int per_width, double T_end) {
   scene.time.dt_max = 4e-3;
   scene.time.end = T_end / std::sqrt(2 * g / a);
   const double thickness = 6 * dx, length = 5 * a;
-  scene.domain = Domain{{-0.5 * a, -thickness / 2, -a}, {length + a, thickness / 2, 4 * a}, Edge::open, Edge::periodic,
-                        Edge::open};
+  scene.domain = Domain{
+      {-0.5 * a, -thickness / 2, -a}, {length + a, thickness / 2, 4 * a}, Edge::open, Edge::periodic, Edge::open};
   Body body;
   body.shape = Box{{a, thickness, 2 * a}};
   const double edge = (test::rest_distance - 0.5) * dx;  // of the liquid, from floor and wall
@@ -86,10 +86,11 @@ void check_dam_break(int per_width) {
                 100 * (Z / point.Z - 1));
     EXPECT_NEAR(Z / point.Z, 1, point.tolerance) << "T = " << point.T;
   }
-  std::printf("dam break: real density error %.4f %% on average, %.4f %% in the worst step; %lld lost, %lld of %lld solves "
-              "above their error\n",
-              100 * dam.compression, 100 * dam.worst, static_cast<long long>(dam.totals.lost),
-              static_cast<long long>(dam.totals.unconverged_solves), static_cast<long long>(dam.totals.steps));
+  std::printf(
+      "dam break: real density error %.4f %% on average, %.4f %% in the worst step; %lld lost, %lld of %lld solves "
+      "above their error\n",
+      100 * dam.compression, 100 * dam.worst, static_cast<long long>(dam.totals.lost),
+      static_cast<long long>(dam.totals.unconverged_solves), static_cast<long long>(dam.totals.steps));
   EXPECT_LE(dam.compression, 1e-3);
   EXPECT_EQ(dam.totals.lost, 0);
   EXPECT_EQ(dam.totals.unconverged_solves, 0);

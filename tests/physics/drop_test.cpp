@@ -8,7 +8,8 @@
 namespace sessile {
 namespace {
 
-/// A free cube becomes a sphere: greatest distance over radius of gyration from 1.73 to sqrt(5/3) = 1.29 within 5 %, at rest.
+/// A free cube becomes a sphere: greatest distance over radius of gyration from 1.73 to sqrt(5/3) = 1.29 within 5 %, at
+/// rest.
 void check_cube(int n, double end) {
   Scene scene = test::block(n, 4e-3, end);
   scene.forces = {SurfaceFeature{}};
@@ -23,9 +24,10 @@ void check_cube(int n, double end) {
   }
   const Diagnostics d = measure(simulation);
   const double ratio = (d.extent.farthest + 0.05) / d.extent.radius_of_gyration;  // to the surface, half a spacing out
-  std::printf("cube of %d^3 after %.1f s: largest over gyration radius %.3f -> %.3f, kinetic energy %.2e of its peak, "
-              "%lld pieces\n",
-              n, end, start, ratio, energy / peak, static_cast<long long>(d.structure.pieces));
+  std::printf(
+      "cube of %d^3 after %.1f s: largest over gyration radius %.3f -> %.3f, kinetic energy %.2e of its peak, "
+      "%lld pieces\n",
+      n, end, start, ratio, energy / peak, static_cast<long long>(d.structure.pieces));
   EXPECT_NEAR(ratio, std::sqrt(5.0 / 3), 0.05 * std::sqrt(5.0 / 3));
   EXPECT_LT(energy, 1e-3 * peak);
   EXPECT_EQ(d.structure.pieces, 1);
@@ -79,7 +81,8 @@ TEST(Scale, TheSameDropFromMicrometresToMetres) {
     apart = std::max({apart, std::abs(metres[k] / millimetres[k] - 1), std::abs(metres[k] / micrometres[k] - 1)});
     moved = std::max(moved, std::abs(metres[k] / metres[0] - 1));
   }
-  std::printf("scale: radii of gyration apart by at most %.4f %%, having changed by %.1f %%\n", 100 * apart, 100 * moved);
+  std::printf("scale: radii of gyration apart by at most %.4f %%, having changed by %.1f %%\n", 100 * apart,
+              100 * moved);
   EXPECT_GT(moved, 0.05) << "nothing happened, so nothing was compared";
   EXPECT_LT(apart, 0.01);
 }

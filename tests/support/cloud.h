@@ -38,7 +38,8 @@ struct Cloud {
     walls.solid.push_back(solid);
   }
 
-  /// Sorts, finds neighbours, computes density and normals. Boundary particles must have been added in grid order or be few.
+  /// Sorts, finds neighbours, computes density and normals. Boundary particles must have been added in grid order or be
+  /// few.
   void look_around(bool one_lane = false) {
     const GridShape shape = GridShape::make(units.support_radius, {}, vec_cast<double>(space.period));
     const auto h = static_cast<Real>(units.support_radius);

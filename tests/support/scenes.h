@@ -20,7 +20,8 @@ inline Scene block(int n, double dt = 2e-3, double end = 1) {
 }
 
 /// Distance over dx from a flat layer of boundary particles at which a cubic lattice has rest density. At one dx its
-/// density is 6 % above, as a lone layer's psi is 1.43 rho0 dx^3: liquid set there would be thrown off in the first step.
+/// density is 6 % above, as a lone layer's psi is 1.43 rho0 dx^3: liquid set there would be thrown off in the first
+/// step.
 inline constexpr double rest_distance = 1.1;
 
 /// A layer of liquid, periodic along x and y, above a floor at z = 0: `width` particles a side, `depth` layers.
@@ -31,8 +32,8 @@ inline Scene column(int width, int depth, double dt = 2e-3) {
   scene.time.end = 5;
   scene.time.fixed_dt = dt;
   scene.fluid.viscosity = 20;
-  scene.domain = Domain{{-size / 2, -size / 2, -1}, {size / 2, size / 2, depth * dx + 2}, Edge::periodic, Edge::periodic,
-                        Edge::open};
+  scene.domain = Domain{
+      {-size / 2, -size / 2, -1}, {size / 2, size / 2, depth * dx + 2}, Edge::periodic, Edge::periodic, Edge::open};
   Body body;
   body.shape = Box{{size, size, depth * dx}};
   body.placement.position = {0, 0, (rest_distance - 0.5 + 0.5 * depth) * dx};

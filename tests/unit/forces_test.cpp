@@ -209,7 +209,8 @@ TEST(Passes, DensityAndNormalsInLanesAgreeWithOneLane) {
   cloud.look_around();
   reference.look_around(true);
   EXPECT_LT(test::difference(cloud.normal, reference.normal), rounding);
-  for (std::size_t i = 0; i < cloud.density.size(); ++i) EXPECT_NEAR(cloud.density[i], reference.density[i], 2 * rounding);
+  for (std::size_t i = 0; i < cloud.density.size(); ++i)
+    EXPECT_NEAR(cloud.density[i], reference.density[i], 2 * rounding);
 }
 
 }  // namespace

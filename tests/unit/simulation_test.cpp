@@ -41,7 +41,8 @@ TEST(Simulation, FreeFallIsParabolic) {
   const double t = simulation.time(), dt = 2e-3;
   EXPECT_NEAR(t, 0.2, 1e-12);
   // Symplectic Euler falls half a step further than the parabola.
-  EXPECT_NEAR(static_cast<double>(p.position.z[static_cast<std::size_t>(place)]) - before, -5 * t * t - 5 * t * dt, 1e-4);
+  EXPECT_NEAR(static_cast<double>(p.position.z[static_cast<std::size_t>(place)]) - before, -5 * t * t - 5 * t * dt,
+              1e-4);
 }
 
 TEST(Simulation, GivesTheSameBitsForAnyNumberOfThreads) {
@@ -181,7 +182,8 @@ TEST(Simulation, RefusesLiquidInsideASolid) {
   ball.label = "ball";
   ball.shape = Sphere{0.12};
   scene.solids = {ball};
-  EXPECT_NE(refusal(scene).find("bodies[0] \"block\" starts inside the solid \"ball\" ("), std::string::npos) << refusal(scene);
+  EXPECT_NE(refusal(scene).find("bodies[0] \"block\" starts inside the solid \"ball\" ("), std::string::npos)
+      << refusal(scene);
   // A plate has no inside, but its boundary particles may not coincide with the liquid's.
   scene.bodies[0].placement.position = {0.05, 0.05, 0.05};
   scene.solids = {plate(2, 0)};

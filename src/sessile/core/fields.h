@@ -16,9 +16,7 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool above = false;
 
-  constexpr bool holds(double value) const {
-    return (above ? value > low : value >= low) && value <= high;
-  }
+  constexpr bool holds(double value) const { return (above ? value > low : value >= low) && value <= high; }
 };
 
 inline constexpr Range any_number{};
@@ -74,7 +72,9 @@ constexpr Field<Owner, Type> derived(Field<Owner, Type> f, std::string_view mean
 
 /// A plain struct that declares its parameters: `static constexpr auto fields()` returns a tuple of Field.
 template <class T>
-concept Declared = requires { T::fields(); };
+concept Declared = requires {
+  T::fields();
+};
 
 /// A declared struct that is one choice among several: its `name` is the value of the scene key "type".
 template <class T>
@@ -94,7 +94,9 @@ template <class Enum>
 struct Words;  // specialisations hold: static constexpr std::array<std::string_view, N> words;
 
 template <class T>
-concept Worded = requires { Words<T>::words; };
+concept Worded = requires {
+  Words<T>::words;
+};
 
 template <Worded Enum>
 constexpr std::string_view word(Enum value) {

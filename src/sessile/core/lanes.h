@@ -66,15 +66,13 @@ void set_zero(std::tuple<T...>& a) {
 }
 template <class... T>
 void add_where(const LaneMask& mask, std::tuple<T...>& sum, const std::tuple<T...>& a) {
-  [&]<std::size_t... k>(std::index_sequence<k...>) {
-    (add_where(mask, std::get<k>(sum), std::get<k>(a)), ...);
-  }(std::index_sequence_for<T...>{});
+  [&]<std::size_t... k>(std::index_sequence<k...>) { (add_where(mask, std::get<k>(sum), std::get<k>(a)), ...); }
+  (std::index_sequence_for<T...>{});
 }
 template <class... T>
 void add(std::tuple<T...>& sum, const std::tuple<T...>& a) {
-  [&]<std::size_t... k>(std::index_sequence<k...>) {
-    (add(std::get<k>(sum), std::get<k>(a)), ...);
-  }(std::index_sequence_for<T...>{});
+  [&]<std::size_t... k>(std::index_sequence<k...>) { (add(std::get<k>(sum), std::get<k>(a)), ...); }
+  (std::index_sequence_for<T...>{});
 }
 template <class... T>
 auto add_up(const std::tuple<T...>& a) {
@@ -101,8 +99,8 @@ inline IndexLanes load_indices(const std::int32_t* list) {
   }
 }
 
-/// The numbers data[j] of the lanes' indices. xsimd 8.1 picks its element-by-element gather even where the processor has
-/// one (a pass then takes twice as long), so the instruction is named here.
+/// The numbers data[j] of the lanes' indices. xsimd 8.1 picks its element-by-element gather even where the processor
+/// has one (a pass then takes twice as long), so the instruction is named here.
 inline Lanes gather(const Real* data, const IndexLanes& j) {
 #if defined(SESSILE_DOUBLE)
   return Lanes::gather(data, j);
@@ -115,8 +113,8 @@ inline Lanes gather(const Real* data, const IndexLanes& j) {
 #endif
 }
 
-/// Writes those of the lane_count numbers from `from` on whose lane is set in the mask to `to`, in order; returns how many.
-/// May write a whole pack. xsimd 8.1 has no compressing store.
+/// Writes those of the lane_count numbers from `from` on whose lane is set in the mask to `to`, in order; returns how
+/// many. May write a whole pack. xsimd 8.1 has no compressing store.
 inline int store_where(const LaneMask& mask, const std::int32_t* from, std::int32_t* to) {
 #if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
   const __mmask16 bits = mask;
@@ -149,9 +147,7 @@ struct View3 {
   const Real* z = nullptr;
 
   Vec3r operator[](int i) const { return {x[i], y[i], z[i]}; }
-  Vec3<Lanes> operator[](const IndexLanes& j) const {
-    return {gather(x, j), gather(y, j), gather(z, j)};
-  }
+  Vec3<Lanes> operator[](const IndexLanes& j) const { return {gather(x, j), gather(y, j), gather(z, j)}; }
 };
 
 /// The same value in every lane of whatever a law computes with: numbers for an int index, packs for IndexLanes.

@@ -23,7 +23,8 @@ void radix_sort(Array<KeyedPlace>& items, Array<KeyedPlace>& scratch, int bits) 
     for (std::ptrdiff_t c = 0; c < chunks; ++c) {
       auto& count = counts[static_cast<std::size_t>(c)];
       count.fill(0);
-      for (auto k = c * chunk; k < std::min(n, (c + 1) * chunk); ++k) ++count[digit(items[static_cast<std::size_t>(k)])];
+      for (auto k = c * chunk; k < std::min(n, (c + 1) * chunk); ++k)
+        ++count[digit(items[static_cast<std::size_t>(k)])];
     }
     std::int32_t start = 0;
     for (std::size_t d = 0; d < digits; ++d) {

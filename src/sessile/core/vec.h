@@ -29,9 +29,7 @@ struct Vec3 {
   friend constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
   friend constexpr Vec3 operator*(const T& s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
   friend constexpr Vec3 operator*(const Vec3& a, const T& s) { return s * a; }
-  friend constexpr bool operator==(const Vec3& a, const Vec3& b)
-    requires std::is_arithmetic_v<T>
-  {
+  friend constexpr bool operator==(const Vec3& a, const Vec3& b) requires std::is_arithmetic_v<T> {
     return a.x == b.x && a.y == b.y && a.z == b.z;
   }
 };

@@ -29,7 +29,8 @@ class Candidates {
   int count() const { return count_; }
 
   /// Writes the places closer than the radius to `list`, but for the place `self`; returns how many.
-  int close_to(const Vec3r& point, const Space& space, Real squared_radius, std::int32_t self, std::int32_t* list) const {
+  int close_to(const Vec3r& point, const Space& space, Real squared_radius, std::int32_t self,
+               std::int32_t* list) const {
     const Vec3<Lanes> xi = spread<Lanes>(point);
     const Lanes numbers = lane_numbers();
     const int own = slot_of(self);
@@ -91,7 +92,8 @@ void NeighborList::build(const Array3& points, const Array3& others, const Grid&
       const std::size_t needed = used + static_cast<std::size_t>(candidates.count()) + 2 * lane_count;
       if (memory.size() < needed) memory.resize(std::max(needed, memory.size() + memory.size() / 2));
       std::int32_t* list = memory.data() + used;
-      const int found = candidates.close_to(point, space, radius * radius, same ? static_cast<std::int32_t>(i) : -1, list);
+      const int found =
+          candidates.close_to(point, space, radius * radius, same ? static_cast<std::int32_t>(i) : -1, list);
       const auto count = static_cast<std::size_t>(found);
       std::fill(list + count, list + padded(count), list[0]);
       count_[i] = found;

@@ -14,8 +14,8 @@ namespace sessile {
 inline View1 view(const Array<Real>& a) { return {a.data()}; }
 inline View3 view(const Array3& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
 
-/// What a pair law may read: particles, boundary particles and neighbours at one moment. Internal; costs nothing to copy.
-/// Masses and psi are in units of rho0 dx^3, densities of rho0, kernels of 1/dx^3, pressures p / rho0 [m^2/s^2].
+/// What a pair law may read: particles, boundary particles and neighbours at one moment. Internal; costs nothing to
+/// copy. Masses and psi are in units of rho0 dx^3, densities of rho0, kernels of 1/dx^3, pressures p / rho0 [m^2/s^2].
 struct StepView {
   struct Samples {
     View3 x, v;
@@ -28,8 +28,8 @@ struct StepView {
   Space space;
   View3 x, v;
   View1 m;
-  View1 rho;      // valid once compute_density has run
-  View3 normal;   // valid once compute_normals has run
+  View1 rho;                // valid once compute_density has run
+  View3 normal;             // valid once compute_normals has run
   NeighborView near;        // fluid around a fluid particle
   NeighborView near_walls;  // boundary particles around a fluid particle
   Samples walls;

@@ -40,8 +40,8 @@ bool LayerSource::taken(const Particles& particles) const {
   const auto close = [&](int i) {
     const Vec3r x = particles.position[static_cast<std::size_t>(i)];
     // Most particles are far away; across a periodic face the box says nothing.
-    if (!space_.periodic && (x.x < lower_.x || x.x > upper_.x || x.y < lower_.y || x.y > upper_.y || x.z < lower_.z ||
-                             x.z > upper_.z)) {
+    if (!space_.periodic &&
+        (x.x < lower_.x || x.x > upper_.x || x.y < lower_.y || x.y > upper_.y || x.z < lower_.z || x.z > upper_.z)) {
       return false;
     }
     Grid::Cursor cursor;

@@ -22,7 +22,8 @@ void Particles::reorder(std::span<const std::int32_t> order) {
   for_each_field([&]<class T>(Array<T>& array) {
     reorder_scratch_.resize(order.size() * sizeof(T));
     T* sorted = reinterpret_cast<T*>(reorder_scratch_.data());
-    for_each(order.size(), [&](int k) { sorted[k] = array[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])]; });
+    for_each(order.size(),
+             [&](int k) { sorted[k] = array[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])]; });
     array.resize(order.size());
     for_each(order.size(), [&](int k) { array[static_cast<std::size_t>(k)] = sorted[k]; });
   });

@@ -87,8 +87,8 @@ struct Compressions {
 void iisph_coefficients(const StepView& s, const Array3& v, double dt, PressureScratch& scratch) {
   scratch.advected.resize(s.n);
   scratch.diagonal.resize(s.n);
-  for_each(s.n, CoefficientsKernel{s, {s, view(v), true}, static_cast<Real>(dt), scratch.advected.data(),
-                                   scratch.diagonal.data()});
+  for_each(s.n, CoefficientsKernel{
+                    s, {s, view(v), true}, static_cast<Real>(dt), scratch.advected.data(), scratch.diagonal.data()});
 }
 
 void iisph_density_change(const StepView& s, const Array3& acceleration, double dt, Array<Real>& change) {

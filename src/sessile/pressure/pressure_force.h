@@ -13,7 +13,8 @@ struct StepView;
 /// particle's own pressure.
 ///   a_i = - sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W_ij - sum_b psi_b (p_i/rho_i^2) grad W_ib
 /// `stress` is scratch for p_i/rho_i^2.
-void pressure_acceleration(const StepView& view, const Array<Real>& pressure, Array<Real>& stress, Array3& acceleration);
+void pressure_acceleration(const StepView& view, const Array<Real>& pressure, Array<Real>& stress,
+                           Array3& acceleration);
 
 /// Adds to each solid the opposite of what its boundary particles' pressure does to the liquid. `stress` as above.
 void add_pressure_reaction(const StepView& view, const Array<Real>& stress, const Walls& walls,

@@ -17,11 +17,11 @@ struct PressureResult {
 
 /// Memory that a solve works in, and its result.
 struct PressureScratch {
-  Array3 acceleration;         ///< pressure acceleration [m/s^2] of the solve
-  Array<Real> stress;          ///< p_i/rho_i^2 of that acceleration
-  Array<Real> advected;        ///< advected density over rest density
-  Array<Real> diagonal;        ///< a_ii
-  Array<Real> next;            ///< pressures that an iteration makes
+  Array3 acceleration;   ///< pressure acceleration [m/s^2] of the solve
+  Array<Real> stress;    ///< p_i/rho_i^2 of that acceleration
+  Array<Real> advected;  ///< advected density over rest density
+  Array<Real> diagonal;  ///< a_ii
+  Array<Real> next;      ///< pressures that an iteration makes
 };
 
 /// Finds the pressure p / rho0 [m^2/s^2] whose acceleration, over dt, takes the compression out of the motion with the

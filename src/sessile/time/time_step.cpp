@@ -22,8 +22,8 @@ Bound stability_bound(const TimeSettings& settings, const MotionScale& s) {
       Bound{"cfl", settings.cfl * ratio(dx, s.speed)},
       Bound{"force", settings.force_factor * std::sqrt(ratio(dx, s.acceleration))},
       Bound{"viscosity", settings.viscosity_factor * ratio(s.rest_density * dx * dx, s.viscosity)},
-      Bound{"capillary",
-            settings.capillary_factor * std::sqrt(ratio(s.rest_density * dx * dx * dx, 2 * std::numbers::pi * s.tension))},
+      Bound{"capillary", settings.capillary_factor *
+                             std::sqrt(ratio(s.rest_density * dx * dx * dx, 2 * std::numbers::pi * s.tension))},
   };
   Bound least = bounds[0];
   for (const Bound& b : bounds) {

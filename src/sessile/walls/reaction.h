@@ -8,8 +8,8 @@
 namespace sessile {
 
 /// Adds to each solid the exact opposite of the force that `law` puts on the liquid, and its torque about the solid's
-/// centre. law(i, b) is the acceleration [m/s^2] that boundary particle b gives to fluid particle i: the very law that the
-/// force pass sums. Summed in double, the same bits for any number of threads.
+/// centre. law(i, b) is the acceleration [m/s^2] that boundary particle b gives to fluid particle i: the very law that
+/// the force pass sums. Summed in double, the same bits for any number of threads.
 template <class Law>
 void add_reaction(const StepView& s, const Walls& walls, const Law& law, std::span<SolidForce> forces) {
   if (forces.empty()) return;

@@ -26,9 +26,9 @@ struct Walls {
   Array<Real> viscosity;      ///< mu_wall / rho0 [m^2/s] of the sample's solid
   Array<std::int32_t> solid;  ///< index of the solid a sample belongs to
 
-  std::vector<std::string> labels;    ///< one per solid
-  std::vector<Vec3d> centres;         ///< one per solid: the point its torque is about [m]
-  std::vector<SolidForce> forces;     ///< one per solid
+  std::vector<std::string> labels;  ///< one per solid
+  std::vector<Vec3d> centres;       ///< one per solid: the point its torque is about [m]
+  std::vector<SolidForce> forces;   ///< one per solid
 
   std::size_t size() const { return solid.size(); }
   std::size_t bytes() const;
@@ -38,8 +38,8 @@ class Grid;
 struct GridShape;
 struct Space;
 
-/// Samples the solids and gives each boundary particle its psi from all samples within the support radius (Akinci 2012).
-/// Fills `grid` with them: they are in its order. Throws SceneError or FileError when a solid cannot be sampled.
+/// Samples the solids and gives each boundary particle its psi from all samples within the support radius (Akinci
+/// 2012). Fills `grid` with them: they are in its order. Throws SceneError or FileError when a solid cannot be sampled.
 Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const GridShape& shape, const Space& space,
                  Grid& grid);
 
