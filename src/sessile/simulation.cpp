@@ -62,6 +62,8 @@ void Simulation::look_around() {
     wall_neighbors_.build(particles_.position, walls_.position, wall_grid_, space_, h, false);
   }
   const Stopwatch watch(stage_times_.density);
+  const auto& masses = particles_.mass;
+  equal_masses_ = std::all_of(masses.begin(), masses.end(), [&](Real m) { return m == masses[0]; });
   compute_density(view(), density_);
   const bool wanted = std::any_of(scene_.forces.begin(), scene_.forces.end(), [](const Force& force) {
     return std::visit([](const auto& model) { return model.uses_normals; }, force);
@@ -217,6 +219,7 @@ StepView Simulation::view() const {
   StepView s(units_, space_, particles_, walls_, fluid_neighbors_, wall_neighbors_);
   s.rho = sessile::view(density_);
   s.normal = sessile::view(normal_);
+  s.m.all_same = equal_masses_;
   return s;
 }
 

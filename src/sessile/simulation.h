@@ -109,6 +109,7 @@ class Simulation {
   bool coarse_walls_ = false;          // whether some solid's samples lie further apart than dx
   Grid grid_, wall_grid_;
   NeighborList fluid_neighbors_, wall_neighbors_;
+  bool equal_masses_ = false;
   Array<Real> density_;
   Array3 normal_, acceleration_;
   PressureScratch pressure_;

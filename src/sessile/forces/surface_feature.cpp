@@ -11,8 +11,8 @@ namespace {
 
 /// e_ij of (14) and (22): the displacement [m], or its unit vector; 0 for coincident particles.
 template <class T>
-Vec3<T> pair_direction(Direction reading, const Vec3<T>& d, const T& r) {
-  return reading == Direction::unit ? safe_inverse(r) * d : d;
+Vec3<T> pair_direction(Direction reading, const Separation<T>& pair) {
+  return reading == Direction::unit ? pair.inverse_r * pair.d : pair.d;
 }
 
 /// -K_ij ( alpha m_j d(r) e_ij + beta (n_i - n_j) ), K_ij = 2 rho0^2/(rho_i^2 + rho_j^2)   (14, 18, 20, 21)
@@ -28,13 +28,12 @@ struct TensionLaw {
   template <NeighborIndex J>
   auto operator()(int i, const J& j) const {
     using T = LaneOf<J>;
-    const auto d = s.to_fluid(i, j);
-    const T r = length(d);
+    const auto pair = s.to_fluid(i, j);
     const T mj = s.m[j], rho_j = s.rho[j];
     const T K = T(Real(2)) / (T(s.rho[i] * s.rho[i]) + rho_j * rho_j);
     const T mean_mass = T(Real(0.5)) * (T(Real(1)) + mj * T(1 / s.m[i]));
-    const T area = select(r > T(Real(0)), T(beta) * mean_mass, T(Real(0)));
-    return -K * (T(alpha_rho0) * mj * cohesion.value(r) * pair_direction(reading, d, r) +
+    const T area = select(squared_length(pair.d) > T(Real(0)), T(beta) * mean_mass, T(Real(0)));
+    return -K * (T(alpha_rho0) * mj * cohesion.value(pair.r) * pair_direction(reading, pair) +
                  area * (spread<T>(s.normal[i]) - s.normal[j]));
   }
 };
@@ -49,9 +48,8 @@ struct AdhesionLaw {
   template <NeighborIndex J>
   auto operator()(int i, const J& b) const {
     using T = LaneOf<J>;
-    const auto d = s.to_wall(i, b);
-    const T r = length(d);
-    return T(-eta_rho0) * s.walls.adhesion[b] * s.walls.psi[b] * adhesion.value(r) * pair_direction(reading, d, r);
+    const auto pair = s.to_wall(i, b);
+    return T(-eta_rho0) * s.walls.adhesion[b] * s.walls.psi[b] * adhesion.value(pair.r) * pair_direction(reading, pair);
   }
 };
 

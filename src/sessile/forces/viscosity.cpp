@@ -16,9 +16,9 @@ struct MorrisFactor {
       : W(s.W), softening(static_cast<Real>(0.01 * s.units.support_radius * s.units.support_radius)) {}
 
   template <class T>
-  T operator()(const Vec3<T>& d) const {
-    const T r2 = squared_length(d);
-    return r2 * W.slope_over_r(sqrt(r2)) / (r2 + T(softening));
+  T operator()(const Separation<T>& pair) const {
+    const T r2 = pair.r * pair.r;
+    return r2 * W.slope_over_r(pair) / (r2 + T(softening));
   }
 };
 

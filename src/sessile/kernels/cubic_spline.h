@@ -37,18 +37,18 @@ struct CubicSpline {
 
   /// dx^3 W'(r)/r [1/m^2]; times x_ij it is the gradient. Finite at r = 0, where the gradient is 0.
   template <class T>
-  T slope_over_r(const T& r) const {
-    const T q = r * T(inverse_h);
+  T slope_over_r(const Separation<T>& pair) const {
+    const T q = pair.r * T(inverse_h);
     const T rest = max(T(Real(1)) - q, T(Real(0)));
     const T inner = T(Real(18)) * q - T(Real(12));
-    const T outer = T(Real(-6)) * rest * rest / max(q, T(Real(0.5)));
+    const T outer = T(-6 / inverse_h) * rest * rest * pair.inverse_r;
     return T(gradient_scale) * select(q <= T(Real(0.5)), inner, outer);
   }
 
-  /// dx^3 grad_i W(x_i - x_j) [1/m] for the displacement d = x_i - x_j of length r.
+  /// dx^3 grad_i W(x_i - x_j) [1/m].
   template <class T>
-  Vec3<T> gradient(const Vec3<T>& d, const T& r) const {
-    return slope_over_r(r) * d;
+  Vec3<T> gradient(const Separation<T>& pair) const {
+    return slope_over_r(pair) * pair.d;
   }
 };
 

@@ -49,14 +49,14 @@ struct StepView {
         walls{view(solids.position), view(solids.velocity), view(solids.psi), view(solids.adhesion),
               view(solids.viscosity)} {}
 
-  /// x_i - x_j [m] from i to a fluid particle, and to a boundary particle.
+  /// How i lies to a fluid particle, and to a boundary particle.
   template <NeighborIndex J>
   auto to_fluid(int i, const J& j) const {
-    return space.displacement(spread<LaneOf<J>>(x[i]), x[j]);
+    return Separation<LaneOf<J>>(space.displacement(spread<LaneOf<J>>(x[i]), x[j]));
   }
   template <NeighborIndex J>
   auto to_wall(int i, const J& b) const {
-    return space.displacement(spread<LaneOf<J>>(x[i]), walls.x[b]);
+    return Separation<LaneOf<J>>(space.displacement(spread<LaneOf<J>>(x[i]), walls.x[b]));
   }
 };
 

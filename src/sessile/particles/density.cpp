@@ -11,8 +11,8 @@ struct DensityKernel {
   Real* rho;
 
   void operator()(int i) const {
-    const Real fluid = s.near.sum(i, [&](auto j) { return s.m[j] * s.W.value(length(s.to_fluid(i, j))); });
-    const Real walls = s.near_walls.sum(i, [&](auto b) { return s.walls.psi[b] * s.W.value(length(s.to_wall(i, b))); });
+    const Real fluid = s.near.sum(i, [&](auto j) { return s.m[j] * s.W.value(s.to_fluid(i, j).r); });
+    const Real walls = s.near_walls.sum(i, [&](auto b) { return s.walls.psi[b] * s.W.value(s.to_wall(i, b).r); });
     rho[i] = s.m[i] * s.W.at_zero() + fluid + walls;
   }
 };
@@ -23,10 +23,8 @@ struct NormalKernel {
   Array3& n;
 
   void operator()(int i) const {
-    n.set(static_cast<std::size_t>(i), h * s.near.sum(i, [&](auto j) {
-      const auto d = s.to_fluid(i, j);
-      return s.m[j] / s.rho[j] * s.W.gradient(d, length(d));
-    }));
+    n.set(static_cast<std::size_t>(i),
+          h * s.near.sum(i, [&](auto j) { return s.m[j] / s.rho[j] * s.W.gradient(s.to_fluid(i, j)); }));
   }
 };
 

@@ -21,14 +21,14 @@ struct Compression {
     const auto ui = u[i];
     const Real fluid = s.near.sum(i, [&](auto j) {
       using T = LaneOf<decltype(j)>;
-      const auto d = s.to_fluid(i, j);
-      return s.m[j] * dot(spread<T>(ui) - u[j], s.W.gradient(d, length(d)));
+      const auto pair = s.to_fluid(i, j);
+      return s.m[j] * dot(spread<T>(ui) - u[j], s.W.gradient(pair));
     });
     const Real walls = s.near_walls.sum(i, [&](auto b) {
       using T = LaneOf<decltype(b)>;
-      const auto d = s.to_wall(i, b);
+      const auto pair = s.to_wall(i, b);
       const auto relative = walls_move ? spread<T>(ui) - s.walls.v[b] : spread<T>(ui);
-      return s.walls.psi[b] * dot(relative, s.W.gradient(d, length(d)));
+      return s.walls.psi[b] * dot(relative, s.W.gradient(pair));
     });
     return fluid + walls;
   }
@@ -47,13 +47,13 @@ struct CoefficientsKernel {
   void operator()(int i) const {
     advected[i] = s.rho[i] + dt * compression(i);
     const auto [g_fluid, squares] = s.near.sum(i, [&](auto j) {
-      const auto d = s.to_fluid(i, j);
-      const auto gradient = s.W.gradient(d, length(d));
+      const auto pair = s.to_fluid(i, j);
+      const auto gradient = s.W.gradient(pair);
       return std::tuple{s.m[j] * gradient, s.m[j] * squared_length(gradient)};
     });
     const auto g_walls = s.near_walls.sum(i, [&](auto b) {
-      const auto d = s.to_wall(i, b);
-      return s.walls.psi[b] * s.W.gradient(d, length(d));
+      const auto pair = s.to_wall(i, b);
+      return s.walls.psi[b] * s.W.gradient(pair);
     });
     const Real step_over_density = dt / s.rho[i];
     diagonal[i] = -step_over_density * step_over_density * (squared_length(g_fluid + g_walls) + s.m[i] * squares);

@@ -14,8 +14,8 @@ struct FluidLaw {
   template <NeighborIndex J>
   auto operator()(int i, const J& j) const {
     using T = LaneOf<J>;
-    const auto d = s.to_fluid(i, j);
-    return -s.m[j] * (T(stress[i]) + stress[j]) * s.W.gradient(d, length(d));
+    const auto pair = s.to_fluid(i, j);
+    return -s.m[j] * (T(stress[i]) + stress[j]) * s.W.gradient(pair);
   }
 };
 
@@ -26,8 +26,8 @@ struct WallLaw {
   template <NeighborIndex J>
   auto operator()(int i, const J& b) const {
     using T = LaneOf<J>;
-    const auto d = s.to_wall(i, b);
-    return T(-stress[i]) * s.walls.psi[b] * s.W.gradient(d, length(d));
+    const auto pair = s.to_wall(i, b);
+    return T(-stress[i]) * s.walls.psi[b] * s.W.gradient(pair);
   }
 };
 

@@ -26,7 +26,7 @@ void add_reaction(const StepView& s, const Walls& walls, const Law& law, std::sp
         const auto solid = static_cast<std::size_t>(walls.solid[sample]);
         const Vec3d force = -mass * vec_cast<double>(law(i, b));
         // At the image of b beside i, from which the law took its displacement.
-        const Vec3d place = vec_cast<double>(s.x[i]) - vec_cast<double>(s.to_wall(i, b));
+        const Vec3d place = vec_cast<double>(s.x[i]) - vec_cast<double>(s.to_wall(i, b).d);
         part[solid].force += force;
         part[solid].torque += cross(place - walls.centres[solid], force);
       }
