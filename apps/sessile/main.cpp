@@ -17,12 +17,14 @@
 
 namespace {
 
-/// Starts the program anew with OpenMP threads that sleep while they wait, unless the user has chosen otherwise. By
-/// default they spin: beside other work on the same cores, a step then takes up to 60 times longer (docs/decisions).
-/// The runtime reads its environment before main, hence the new start.
+/// Starts the program anew with OpenMP threads that soon sleep when they wait, unless the user has chosen otherwise. By
+/// default they spin for long: beside other work on the same cores, a step then takes up to 60 times longer
+/// (docs/decisions/threads-wait-passively.md). The runtime reads its environment before main, hence the new start.
 void let_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  if (setenv("OMP_WAIT_POLICY", "passive", 0) == 0) execv("/proc/self/exe", argv);
+  // Some microseconds of spinning bridge the gap between two loops of a step; GCC's runtime heeds the count.
+  const bool set = setenv("OMP_WAIT_POLICY", "passive", 0) == 0 && setenv("GOMP_SPINCOUNT", "1000", 0) == 0;
+  if (set) execv("/proc/self/exe", argv);
   // Where that does not work, the program runs all the same.
 }
 
