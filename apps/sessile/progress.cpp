@@ -59,7 +59,7 @@ void Progress::show(const Simulation& simulation) {
     line["dt"] = last.dt;
     line["bound"] = std::string(last.bound);
     line["iterations"] = last.iterations;
-    line["density_error"] = last.predicted_error;
+    line["predicted_density_error"] = last.predicted_error;
     line["particles"] = static_cast<Json::UInt64>(simulation.particles().size());
     line["steps_per_second"] = rate;
     line["seconds_left"] = left;

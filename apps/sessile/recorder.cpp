@@ -87,6 +87,7 @@ void Recorder::write_stats(const Simulation& simulation) {
 }
 
 void Recorder::finish(const Simulation& simulation, RunFacts facts) {
+  const auto start = std::chrono::steady_clock::now();
   if (facts.status != RunStatus::failed) {
     if (frame_time_ < simulation.time()) write_frame(simulation);
     if (stats_time_ < simulation.time()) write_stats(simulation);
@@ -100,6 +101,7 @@ void Recorder::finish(const Simulation& simulation, RunFacts facts) {
     facts.status = RunStatus::failed;
     if (facts.message.empty()) facts.message = e.what();
   }
+  facts.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   facts.output_time = output_seconds_;
   facts.measures_time = measure_seconds_;
   facts.writer_time = frames_.seconds();

@@ -162,7 +162,8 @@ class ProgressStyles(CliTest):
         out, err = self.progress("json")
         self.assertEqual(err, "")
         lines = [json.loads(line) for line in out.splitlines()]
-        self.assertEqual(set(lines[-1]), {"time", "end", "step", "dt", "bound", "iterations", "density_error", "particles",
+        self.assertEqual(set(lines[-1]), {"time", "end", "step", "dt", "bound", "iterations",
+                                           "predicted_density_error", "particles",
                                           "steps_per_second", "seconds_left"})
         self.assertEqual((lines[-1]["step"], lines[-1]["particles"], lines[-1]["bound"]), (8, 27, "fixed"))
 
