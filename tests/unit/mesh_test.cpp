@@ -115,6 +115,11 @@ TEST_F(MeshFiles, FaultsAreSentences) {
   ends("i.obj", "v 0 0\n", "line 1: expected three numbers");
   ends("j.obj", "v 0 0 0\nf 1 x 1\n", "line 2: expected the number of a corner");
   ends("g.stl", cube_stl().substr(0, 200), "is no STL file, or its end is missing");
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  ends("s.stl", "solid cut\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\n",
+       "its end is missing: no endsolid");
+  EXPECT_EQ(message_of("t.stl", "solid whole\n" + facet + "endsolid whole\n"), "");
   ends("h.ply", cube_ply().substr(0, 100), "has no complete PLY header");
   ends("k.ply", cube_ply().substr(0, 300), "its numbers end too early or are none");
   EXPECT_TRUE(has(message_of("c.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), "c.obj: holds no triangles"));

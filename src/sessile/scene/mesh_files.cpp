@@ -95,9 +95,12 @@ TriangleSoup parse_stl(std::string_view bytes) {
   }
   if (!bytes.starts_with("solid")) throw FileError("is no STL file, or its end is missing");
   TriangleSoup soup;
+  bool ended = false;
   for_each_line(bytes, [&](std::string_view line, std::size_t number) {
     MeshWords words(line);
-    if (words.next() != "vertex") return;
+    const std::string_view first = words.next();
+    ended = ended || first == "endsolid";
+    if (first != "vertex") return;
     Vec3d p{};
     if (!words.number(p.x) || !words.number(p.y) || !words.number(p.z)) {
       throw FileError(fmt::format("line {}: expected three numbers", number));
@@ -106,6 +109,7 @@ TriangleSoup parse_stl(std::string_view bytes) {
     const auto count = static_cast<std::int64_t>(soup.corners.size());
     if (count % 3 == 0) add_polygon(soup, {count - 3, count - 2, count - 1});
   });
+  if (!ended) throw FileError("its end is missing: no endsolid");
   return soup;
 }
 
