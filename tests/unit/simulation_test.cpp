@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sessile/core/error.h"
 #include "support/cloud.h"
@@ -153,7 +154,7 @@ TEST(Simulation, CountsWhatPassesThroughASolid) {
 
 TEST(Simulation, EndsWithASentenceWhenPositionsAreNoLongerFinite) {
   Scene scene = test::block(2);
-  scene.gravity = {0, 0, -1e38};
+  scene.gravity = {0, 0, -0.3 * static_cast<double>(std::numeric_limits<Real>::max())};
   scene.time.fixed_dt = 1e10;
   scene.time.end = 1e12;
   scene.output.frame_interval = 1e12;
