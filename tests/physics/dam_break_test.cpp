@@ -72,7 +72,7 @@ double front_at(const DamBreak& dam, double T) {
 }
 
 /// The goal is 10 %. The later points meet it; at T = 0.84 to 1.63 the front leads by up to 18 %, as published
-/// SPH fronts do (the experiment's clock starts with a gate that takes time to open): held here to 20 %, and reported.
+/// SPH fronts do (why is not shown; see docs/validation.md): held here to 20 %, and reported.
 void check_dam_break(int per_width) {
   const DamBreak dam = collapse(per_width, 2.55);
   struct Measured {
