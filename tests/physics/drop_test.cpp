@@ -13,7 +13,7 @@ namespace {
 void check_cube(int n, double end) {
   Scene scene = test::block(n, 4e-3, end);
   scene.forces = {SurfaceFeature{}};
-  scene.fluid.viscosity = 100;  // Ohnesorge number 0.3; the currents that the area term feeds at rest stay small
+  scene.fluid.viscosity = 100;  // Ohnesorge number 0.3; the currents of a drop at rest stay small
   Simulation simulation(scene);
   const double start = measure(simulation).extent.farthest / measure(simulation).extent.radius_of_gyration;
   double peak = 0, energy = 0;
