@@ -21,8 +21,8 @@ double l2_error(const std::vector<double>& a, const std::vector<double>& b, std:
 }
 
 /// Hydrostatic column 20 dx deep: the pressure profile in bins of dx is rho g (H - z), and the surface drifts less than
-/// dx/2. The goal of 2 % in L2 is met or narrowly missed (1.6 to 2.7 %), as the particles happen to settle; held here to
-/// 3 %, and reported in docs/validation.md. The error is taken beyond a support radius from the floor: one layer of
+/// dx/2. The goal of 2 % in L2 is met or narrowly missed (1.6 to 2.7 %), as the particles happen to settle; held here
+/// to 3 %, and reported in docs/validation.md. The error is taken beyond a support radius from the floor: one layer of
 /// boundary particles that mirror the particle's own pressure, as the paper's (5) has it, pushes with half of what a
 /// liquid layer would, so the pressure of the first layer is 1.5 times the column's. The error over all bins is printed
 /// beside it.
