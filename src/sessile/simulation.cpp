@@ -104,8 +104,7 @@ double Simulation::next_time_step() {
     scale.viscosity = std::max(scale.viscosity, static_cast<double>(nu) * units_.rest_density);
   }
   for (const Force& force : scene_.forces) {
-    scale.tension +=
-        std::visit([&](const auto& model) { return model.tension(units_.rest_density, units_.support_radius); }, force);
+    scale.tension += std::visit([&](const auto& model) { return model.tension(units_); }, force);
   }
   const TimeStep chosen = choose_time_step(scene_.time, scale, last_step_.dt);
   last_step_.dt = chosen.dt;

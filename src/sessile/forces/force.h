@@ -10,11 +10,11 @@ namespace sessile {
 /// What a member of Force offers: declared parameters, an acceleration, its reaction on the
 /// solids, and the macroscopic tension that bounds dt.
 template <class T>
-concept ForceModel = Named<T> &&
-    requires(const T& model, const StepView& view, const Walls& walls, Array3& a, std::span<SolidForce> forces) {
+concept ForceModel = Named<T> && requires(const T& model, const StepView& view, const Walls& walls, const Units& units,
+                                          Array3& a, std::span<SolidForce> forces) {
   model.add_acceleration(view, a);
   model.add_reaction(view, walls, forces);
-  { model.tension(1.0, 1.0) } -> std::same_as<double>;
+  { model.tension(units) } -> std::same_as<double>;
   { T::uses_normals } -> std::convertible_to<bool>;
 };
 

@@ -83,8 +83,9 @@ void SurfaceFeature::add_reaction(const StepView& s, const Walls& walls, std::sp
   sessile::add_reaction(s, walls, adhesion_law(*this, s), forces);
 }
 
-double SurfaceFeature::tension(double rest_density, double h) const {
-  const double unit = cohesion * rest_density * rest_density * h * h;
+double SurfaceFeature::tension(const Units& units) const {
+  const double h = units.support_radius;
+  const double unit = cohesion * units.rest_density * units.rest_density * h * h;
   return direction == Direction::unit ? 21.0 / 7040 * unit : 271.0 / 135168 * unit * h;
 }
 
