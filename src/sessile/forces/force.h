@@ -3,7 +3,12 @@
 #include <concepts>
 #include <variant>
 
+#include "sessile/forces/akinci2013.h"
+#include "sessile/forces/becker2007.h"
+#include "sessile/forces/csf.h"
+#include "sessile/forces/he2014.h"
 #include "sessile/forces/surface_feature.h"
+#include "sessile/forces/tartakovsky2005.h"
 
 namespace sessile {
 
@@ -19,8 +24,13 @@ concept ForceModel = Named<T> && requires(const T& model, const StepView& view, 
 };
 
 static_assert(ForceModel<SurfaceFeature>);
+static_assert(ForceModel<Akinci2013>);
+static_assert(ForceModel<Csf>);
+static_assert(ForceModel<Becker2007>);
+static_assert(ForceModel<Tartakovsky2005>);
+static_assert(ForceModel<He2014>);
 
 /// Every force a scene can list under "forces".
-using Force = std::variant<SurfaceFeature>;
+using Force = std::variant<SurfaceFeature, Akinci2013, Csf, Becker2007, Tartakovsky2005, He2014>;
 
 }  // namespace sessile
