@@ -102,6 +102,56 @@ TEST(He2014, ASolidTakesTheLiquidsPlace) {
   }
 }
 
+/// sigma h / kappa of a flat surface of uniform liquid: the model's sums as integrals over depth, by quadrature.
+///   sigma = (kappa/8) int G V (int K V dz') dz over a slab of two faces,  G = |grad c|^2,  V = rho0/rho
+///   K(z) = pi int_|z|^h -W'(r) (r^2 - 3 z^2) dr: the pull along the surface less that across it, of sheets z apart
+double flat_surface_tension(std::size_t cells) {
+  const std::size_t n = 8 * cells;
+  const double d = 1.0 / static_cast<double>(cells);  // lengths in h
+  const auto slope = [](double q) {
+    return 8 / std::numbers::pi * (q <= 0.5 ? 18 * q * q - 12 * q : -6 * (1 - q) * (1 - q));
+  };
+  const auto value = [](double q) {
+    return 8 / std::numbers::pi * (q <= 0.5 ? 6 * q * q * q - 6 * q * q + 1 : 2 * std::pow(1 - q, 3));
+  };
+  // What a sheet of liquid at distance k d does, for W, its derivative and K: the integral over r from k d to h.
+  std::vector<double> W(cells + 1), dW(cells + 1), K(cells + 1);
+  double sum = 0, squares = 0, slopes = 0;
+  const int fine = 200;
+  for (std::size_t k = cells; k-- > 0;) {
+    const double z = static_cast<double>(k) * d;
+    for (int m = fine - 1; m >= 0; --m) {
+      const double q = z + (m + 0.5) / fine * d, e = d / fine;
+      sum += 2 * std::numbers::pi * value(q) * q * e;
+      squares -= std::numbers::pi * slope(q) * q * q * e;
+      slopes -= 3 * std::numbers::pi * slope(q) * e;
+    }
+    W[k] = sum, dW[k] = -2 * std::numbers::pi * z * value(z), K[k] = squares - slopes * z * z;
+  }
+  const auto over_depth = [&](const std::vector<double>& sheet, bool odd, const std::vector<double>& weight) {
+    std::vector<double> all(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = i - std::min(i, cells); j <= std::min(n - 1, i + cells); ++j) {
+        all[i] += d * weight[j] * (j <= i ? sheet[i - j] : (odd ? -1 : 1) * sheet[j - i]);
+      }
+    }
+    return all;
+  };
+  const std::vector<double> rho = over_depth(W, false, std::vector<double>(n, 1));
+  std::vector<double> V(n), Vc(n);
+  for (std::size_t i = 0; i < n; ++i) V[i] = 1 / rho[i];
+  const std::vector<double> c = over_depth(W, false, V), pull = over_depth(K, false, V);
+  for (std::size_t i = 0; i < n; ++i) Vc[i] = V[i] * c[i];
+  const std::vector<double> steep = over_depth(dW, true, Vc);
+  double sigma = 0;
+  for (std::size_t i = 0; i < n; ++i) sigma += d / 8 * V[i] * pull[i] * std::pow(steep[i] / c[i], 2);
+  return sigma;
+}
+
+TEST(He2014, TensionIsTheIntegralAtAFlatSurface) {
+  EXPECT_NEAR(He2014{283.5}.tension({dx, h, rho0}) * h / 283.5, flat_surface_tension(100), 1e-4);
+}
+
 TEST(He2014, GivesTheSolidTheOppositeForceAndTorque) {
   test::Cloud cloud = test::lattice(8, 0.3, true);
   cloud.look_around();
