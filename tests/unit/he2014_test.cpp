@@ -49,7 +49,6 @@ TEST(He2014, VanishesInsideAndPullsABallTogether) {
   for (const He2014& model : {He2014{283.5, 0}, He2014{0, 500}}) {
     const Array3 a = acceleration(cloud, model);
     double greatest = 0, inside = 0;
-    Vec3d moment;
     for (std::size_t i = 0; i < a.size(); ++i) {
       const Vec3d x = vec_cast<double>(cloud.particles.position[i]);
       const double size = static_cast<double>(length(a[i]));
