@@ -30,6 +30,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Kinetic energy in units of a particle mass of rho0 dx^3 [m^2/s^2].
+double kinetic(const Particles& particles, std::size_t k) {
+  return 0.5 * static_cast<double>(particles.mass[k]) * squared_length(vec_cast<double>(particles.velocity[k]));
+}
+
 double greatest_length(const Array3& a) {
   return std::sqrt(
       maximum(a.size(), [&](int i) { return static_cast<double>(squared_length(a[static_cast<std::size_t>(i)])); }));
@@ -148,22 +153,33 @@ void Simulation::move(double dt) {
   };
   struct Events {
     std::int64_t passages = 0, not_finite = 0;
+    double forces = 0, pressure = 0, kinetic = 0;  // work, and energy after the step [m^2/s^2]
   };
   const Events events = reduce(
       particles_.size(), Events{},
       [&](int i) {
         const auto k = static_cast<std::size_t>(i);
-        const Vec3r v = particles_.velocity[k] + step * pressure_.acceleration[k];
+        const Vec3r predicted = particles_.velocity[k];
+        const Vec3r v = predicted + step * pressure_.acceleration[k];
         const Vec3r from = particles_.position[k], to = from + step * v;
         particles_.velocity.set(k, v);
         particles_.position.set(k, to);
         if (!std::isfinite(to.x) || !std::isfinite(to.y) || !std::isfinite(to.z)) return Events{0, 1};
-        return Events{passed_a_solid(k, vec_cast<double>(from), vec_cast<double>(to)) ? 1 : 0, 0};
+        const Vec3d by_forces = dt * vec_cast<double>(acceleration_[k]);
+        const Vec3d by_pressure = vec_cast<double>(v) - vec_cast<double>(predicted);
+        const Vec3d mean = vec_cast<double>(v) - 0.5 * (by_forces + by_pressure);  // of the velocities around the step
+        const auto m = static_cast<double>(particles_.mass[k]);
+        return Events{passed_a_solid(k, vec_cast<double>(from), vec_cast<double>(to)) ? 1 : 0, 0,
+                      m * dot(by_forces, mean), m * dot(by_pressure, mean), kinetic(particles_, k)};
       },
       [](const Events& a, const Events& b) {
-        return Events{a.passages + b.passages, a.not_finite + b.not_finite};
+        return Events{a.passages + b.passages, a.not_finite + b.not_finite, a.forces + b.forces,
+                      a.pressure + b.pressure, a.kinetic + b.kinetic};
       });
   totals_.lost += events.passages + events.not_finite;
+  totals_.energy.forces += units_.particle_mass() * events.forces;
+  totals_.energy.pressure += units_.particle_mass() * events.pressure;
+  last_step_.kinetic_energy = units_.particle_mass() * events.kinetic;
   if (events.not_finite > 0) {
     throw RunError(
         fmt::format("{} of {} particles have no finite position after the step of {:g} s at {:g} s: the step "
@@ -186,6 +202,7 @@ void Simulation::take_out_what_left() {
     return edge == Edge::open && (x < start || x > end);
   };
   std::vector<std::int32_t> staying;
+  double energy = 0;  // of those that leave
   const std::size_t n = particles_.size();
   staying.reserve(n);
   for (std::size_t k = 0; k < n; ++k) {
@@ -196,21 +213,31 @@ void Simulation::take_out_what_left() {
     particles_.position.set(k, x);
     const bool out =
         outside(box.x, x.x, low.x, high.x) || outside(box.y, x.y, low.y, high.y) || outside(box.z, x.z, low.z, high.z);
-    if (!out) staying.push_back(static_cast<std::int32_t>(k));
+    if (out) {
+      energy += kinetic(particles_, k);
+    } else {
+      staying.push_back(static_cast<std::int32_t>(k));
+    }
   }
   if (staying.size() == n) return;
   totals_.out += static_cast<std::int64_t>(n - staying.size());
+  totals_.energy.out += units_.particle_mass() * energy;
+  last_step_.kinetic_energy -= units_.particle_mass() * energy;
   particles_.reorder(staying);
 }
 
 void Simulation::let_in_new_layers() {
   const Stopwatch watch(stage_times_.integration);
+  double energy = 0;
   for (LayerSource& source : sources_) {
-    const auto before = static_cast<std::int64_t>(particles_.size());
+    const std::size_t before = particles_.size();
     const Emission emission = source.emit(time_, particles_, next_id_);
-    totals_.emitted += static_cast<std::int64_t>(particles_.size()) - before;
+    for (std::size_t k = before; k < particles_.size(); ++k) energy += kinetic(particles_, k);
+    totals_.emitted += static_cast<std::int64_t>(particles_.size() - before);
     totals_.waits += emission == Emission::began_to_wait;
   }
+  totals_.energy.emitted += units_.particle_mass() * energy;
+  last_step_.kinetic_energy += units_.particle_mass() * energy;
 }
 
 bool Simulation::finished() const { return time_ >= scene_.time.end - 1e-6 * last_step_.dt; }

@@ -35,6 +35,19 @@ struct StepReport {
   bool converged = true;           ///< whether the solve reached its error
   double predicted_error = 0;      ///< average compression over rest density that the solver predicts
   double predicted_error_max = 0;  ///< the greatest one
+  double kinetic_energy = 0;       ///< of all particles after it [J]
+};
+
+/// Kinetic energy [J] and where it comes from, since the start: kinetic = start + forces + pressure + emitted - out.
+/// The work of an acceleration a over a step is m a . (v + v')/2 dt, v and v' being the velocities before and after.
+struct EnergyAccount {
+  double start = 0;     ///< kinetic energy at the start
+  double forces = 0;    ///< work of all accelerations but pressure's: gravity, viscosity, tension, adhesion
+  double pressure = 0;  ///< work of pressure; that of an incompressible liquid between walls at rest only takes
+  double emitted = 0;   ///< kinetic energy let in by emitters
+  double out = 0;       ///< kinetic energy that left an open domain
+
+  double kinetic() const { return start + forces + pressure + emitted - out; }
 };
 
 /// Counts since the start.
@@ -47,6 +60,7 @@ struct Totals {
   std::int64_t waits = 0;            ///< layers that fell due while their place was taken
   std::int64_t out = 0;              ///< particles that left an open domain
   std::int64_t lost = 0;             ///< passages through a solid; a position that is not finite ends the run
+  EnergyAccount energy{};
 };
 
 /// A liquid in motion: the state of a run and the paper's step.

@@ -152,6 +152,11 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
     }
   }
   if (!faults.empty()) throw SceneError(std::move(faults));
+  for (std::size_t k = 0; k < particles_.size(); ++k) {
+    totals_.energy.start += 0.5 * units_.particle_mass() * static_cast<double>(particles_.mass[k]) *
+                            squared_length(vec_cast<double>(particles_.velocity[k]));
+  }
+  last_step_.kinetic_energy = totals_.energy.start;
   let_in_new_layers();
   look_around();
 }

@@ -11,15 +11,6 @@
 namespace sessile {
 namespace {
 
-/// The energy account of a simulation that keeps one.
-template <class S>
-void take_energies(const S& simulation, SoundnessState& state) {
-  if constexpr (requires { simulation.totals().energy.pressure; }) {
-    state.kinetic_energy = simulation.last_step().kinetic_energy;
-    state.pressure_work = simulation.totals().energy.pressure;
-  }
-}
-
 double share(std::int64_t part, std::int64_t whole) {
   return static_cast<double>(part) / static_cast<double>(std::max<std::int64_t>(1, whole));
 }
@@ -34,7 +25,8 @@ void Soundness::look(const Simulation& simulation) {
   state.steps = totals.steps;
   state.unconverged_solves = totals.unconverged_solves;
   state.lost = totals.lost;
-  take_energies(simulation, state);
+  state.kinetic_energy = simulation.last_step().kinetic_energy;
+  state.pressure_work = totals.energy.pressure;
   look(state);
 }
 

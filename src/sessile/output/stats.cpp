@@ -34,6 +34,8 @@ constexpr auto columns = std::to_array<StatsColumn<StatsRow>>({
     {"density_error_max", "", [](const StatsRow& r) -> Cell { return r.measured.compression.max; }},
     {"kinetic_energy", "J", [](const StatsRow& r) -> Cell { return r.measured.motion.kinetic_energy; }},
     {"potential_energy", "J", [](const StatsRow& r) -> Cell { return r.measured.motion.potential_energy; }},
+    {"work_forces", "J", [](const StatsRow& r) -> Cell { return r.totals.energy.forces; }},
+    {"work_pressure", "J", [](const StatsRow& r) -> Cell { return r.totals.energy.pressure; }},
     {"momentum_x", "kg m/s", [](const StatsRow& r) -> Cell { return r.measured.motion.momentum.x; }},
     {"momentum_y", "kg m/s", [](const StatsRow& r) -> Cell { return r.measured.motion.momentum.y; }},
     {"momentum_z", "kg m/s", [](const StatsRow& r) -> Cell { return r.measured.motion.momentum.z; }},

@@ -60,6 +60,14 @@ std::string summary_json(const RunFacts& run, const SimulationFacts& simulation)
   JsonObject memory(1);
   memory.add("peak", peak_memory()).add("arrays", simulation.bytes);
 
+  JsonObject energy(1);
+  energy.add("kinetic_at_start", totals.energy.start)
+      .add("work_of_forces", totals.energy.forces)
+      .add("work_of_pressure", totals.energy.pressure)
+      .add("emitted", totals.energy.emitted)
+      .add("out", totals.energy.out)
+      .add("kinetic_at_end", totals.energy.kinetic());
+
   JsonObject summary(0);
   summary.add("status", std::string(word(run.status)))
       .add("message", run.message)
@@ -77,6 +85,7 @@ std::string summary_json(const RunFacts& run, const SimulationFacts& simulation)
       .add("waits", totals.waits)
       .add("out", totals.out)
       .add("lost", totals.lost)
+      .raw("energy_J", energy.text())
       .raw("wall_time_s", wall_time.text())
       .raw("memory_bytes", memory.text());
   if (is_json(run.scene_json)) {
