@@ -26,6 +26,9 @@ std::string literal(std::string_view text) {
   return result;
 }
 
+/// Earlier lines are wider, so that they show beneath later ones that run along them.
+double width(std::size_t i) { return std::max(1.8, 4.2 - 0.4 * static_cast<double>(i)); }
+
 /// Whether any method has a value that a logarithmic axis can show.
 bool any_positive(const std::vector<StatsTable>& tables, const Plot& plot) {
   return std::any_of(tables.begin(), tables.end(), [&](const StatsTable& table) {
@@ -36,8 +39,10 @@ bool any_positive(const std::vector<StatsTable>& tables, const Plot& plot) {
 
 std::string axis(const Plot& plot, bool logarithmic) {
   std::string text = fmt::format("set title {}\nset ylabel {}\n", literal(plot.title), literal(plot.axis));
-  if (logarithmic) return text + "set logscale y\nset format y '10^{%L}'\nset yrange [*:*]\n";
-  return text + fmt::format("unset logscale y\nset format y '%g'\nset yrange [{}:*]\n", plot.from_zero ? "0" : "*");
+  if (logarithmic) return text + "set logscale y\nset format y '10^{%L}'\nset yrange [*:*]\nset offsets 0, 0, 0, 0\n";
+  return text +
+         fmt::format("unset logscale y\nset format y '%g'\nset yrange [{}:*]\nset offsets 0, 0, graph 0.05, {}\n",
+                     plot.from_zero ? "0" : "*", plot.from_zero ? "0" : "graph 0.05");
 }
 
 }  // namespace
@@ -51,13 +56,14 @@ std::string plot_script(const fs::path& folder, const std::vector<std::string>& 
       "set border 3 lc rgb '#555555'\nset tics nomirror textcolor rgb '#333333'\n"
       "set grid lt 1 lw 1 lc rgb '#dddddd'\n"
       "set key outside right top Left reverse samplen 2 spacing 1.3 noenhanced\n"
-      "set title font ',18' noenhanced\nset ylabel noenhanced\nset xlabel 'simulated time [s]'\nset xrange [0:*]\n\n";
+      "set title font ',18' noenhanced\nset ylabel noenhanced\nset xlabel 'simulated time [s]'\nset xrange [0:*]\nset "
+      "autoscale xfixmax\nset format x '%g'\n\n";
   std::vector<StatsTable> tables;
   for (std::size_t i = 0; i < methods.size(); ++i) {
     tables.emplace_back(folder / methods[i] / "stats.csv");
-    script += fmt::format("name{0} = {1}\nfile{0} = {2}\nset style line {0} lw 2.5 lc rgb '{3}' dashtype {4}\n", i + 1,
+    script += fmt::format("name{0} = {1}\nfile{0} = {2}\nset style line {0} lw {5} lc rgb '{3}' dashtype {4}\n", i + 1,
                           literal(methods[i]), literal("../" + methods[i] + "/stats.csv"), colours[i % colours.size()],
-                          1 + i / colours.size());
+                          1 + i / colours.size(), width(i));
   }
   for (const Plot& plot : plots) {
     script += "\n" + axis(plot, plot.logarithmic && any_positive(tables, plot));
