@@ -87,10 +87,10 @@ void surface_feature(benchmark::State& state) {
   });
 }
 
-void iisph_coefficients(benchmark::State& state) {
+void pressure_coefficients(benchmark::State& state) {
   PressureScratch scratch;
   run(state,
-      [&](const test::Cloud& c) { sessile::iisph_coefficients(c.view(), c.particles.velocity, 0.002, scratch); });
+      [&](const test::Cloud& c) { sessile::pressure_coefficients(c.view(), c.particles.velocity, 0.002, scratch); });
 }
 
 void pressure_acceleration(benchmark::State& state) {
@@ -101,7 +101,7 @@ void pressure_acceleration(benchmark::State& state) {
 
 void pressure_divergence(benchmark::State& state) {
   Array<Real> change;
-  run(state, [&](const test::Cloud& c) { iisph_density_change(c.view(), c.normal, 0.002, change); });
+  run(state, [&](const test::Cloud& c) { density_change(c.view(), c.normal, 0.002, change); });
 }
 
 /// One whole step of a falling block with every force, IISPH to 0.01 %.
@@ -139,7 +139,7 @@ BENCHMARK(density)->Apply(sizes);
 BENCHMARK(normals)->Apply(sizes);
 BENCHMARK(viscosity)->Apply(sizes);
 BENCHMARK(surface_feature)->Apply(sizes);
-BENCHMARK(iisph_coefficients)->Apply(sizes);
+BENCHMARK(pressure_coefficients)->Apply(sizes);
 BENCHMARK(pressure_acceleration)->Apply(sizes);
 BENCHMARK(pressure_divergence)->Apply(sizes);
 BENCHMARK(whole_step)->Apply(sizes);

@@ -53,7 +53,8 @@ void Simulation::step() {
   time_ += dt;
   take_out_what_left();
   let_in_new_layers();
-  look_around();  // neighbours, densities, normals of x(t + dt)
+  look_around();                      // neighbours, densities, normals of x(t + dt)
+  free_velocities_of_divergence(dt);  // for solvers that start from such velocities (DFSPH)
   ++totals_.steps;
 }
 
@@ -102,16 +103,14 @@ double Simulation::next_time_step() {
   MotionScale scale;
   scale.spacing = units_.spacing;
   scale.rest_density = units_.rest_density;
+  scale.sound_speed = sound_speed(scene_.pressure);
   scale.speed = greatest_length(particles_.velocity);
   scale.acceleration = greatest_length(acceleration_);
   scale.viscosity = scene_.fluid.viscosity;
   for (const Real nu : walls_.viscosity) {
     scale.viscosity = std::max(scale.viscosity, static_cast<double>(nu) * units_.rest_density);
   }
-  for (const Force& force : scene_.forces) {
-    scale.tension +=
-        std::visit([&](const auto& model) { return model.tension(units_.rest_density, units_.support_radius); }, force);
-  }
+  scale.tension = tension();
   const TimeStep chosen = choose_time_step(scene_.time, scale, last_step_.dt);
   last_step_.dt = chosen.dt;
   last_step_.bound = chosen.bound;
@@ -138,6 +137,25 @@ void Simulation::solve_pressure(double dt) {
   last_step_.predicted_error = result.error;
   last_step_.predicted_error_max = result.error_max;
   totals_.iterations += result.iterations;
+  totals_.unconverged_solves += !result.converged;
+}
+
+void Simulation::free_velocities_of_divergence(double dt) {
+  if (!frees_velocities_of_divergence(scene_.pressure)) return;
+  const Stopwatch watch(stage_times_.pressure);
+  const auto energy = [&] {
+    return units_.particle_mass() *
+           sum(particles_.size(), [&](int i) { return kinetic(particles_, static_cast<std::size_t>(i)); });
+  };
+  const double before = energy();
+  const PressureResult result =
+      remove_divergence(scene_.pressure, view(), particles_.velocity, dt, particles_.divergence_pressure, pressure_);
+  add_pressure_reaction(view(), pressure_.stress, walls_, walls_.forces);
+  last_step_.kinetic_energy = energy();
+  totals_.energy.pressure += last_step_.kinetic_energy - before;
+  last_step_.divergence_iterations = result.iterations;
+  last_step_.converged = last_step_.converged && result.converged;
+  totals_.divergence_iterations += result.iterations;
   totals_.unconverged_solves += !result.converged;
 }
 
@@ -238,6 +256,15 @@ void Simulation::let_in_new_layers() {
   }
   totals_.energy.emitted += units_.particle_mass() * energy;
   last_step_.kinetic_energy += units_.particle_mass() * energy;
+}
+
+double Simulation::tension() const {
+  double sum = 0;
+  for (const Force& force : scene_.forces) {
+    sum +=
+        std::visit([&](const auto& model) { return model.tension(units_.rest_density, units_.support_radius); }, force);
+  }
+  return sum;
 }
 
 bool Simulation::finished() const { return time_ >= scene_.time.end - 1e-6 * last_step_.dt; }

@@ -28,11 +28,12 @@ struct StageTimes {
 
 /// What the last step did.
 struct StepReport {
-  double dt = 0;                   ///< [s]
-  std::string_view bound;          ///< what set dt: cfl, force, viscosity, capillary, growth, dt_max, dt_min, fixed
-  std::string_view overruled;      ///< the stability bound that a fixed dt or dt_min exceeds, or ""
-  int iterations = 0;              ///< of the pressure solve
-  bool converged = true;           ///< whether the solve reached its error
+  double dt = 0;               ///< [s]
+  std::string_view bound;      ///< what set dt: cfl, sound, force, viscosity, capillary, growth, dt_max, dt_min, fixed
+  std::string_view overruled;  ///< the stability bound that a fixed dt or dt_min exceeds, or ""
+  int iterations = 0;          ///< of the pressure solve
+  int divergence_iterations = 0;   ///< of the solve that frees the velocities of divergence, if the solver has one
+  bool converged = true;           ///< whether every solve reached its error
   double predicted_error = 0;      ///< average compression over rest density that the solver predicts
   double predicted_error_max = 0;  ///< the greatest one
   double kinetic_energy = 0;       ///< of all particles after it [J]
@@ -54,6 +55,7 @@ struct EnergyAccount {
 struct Totals {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
+  std::int64_t divergence_iterations = 0;
   std::int64_t unconverged_solves = 0;
   std::int64_t overruled_steps = 0;  ///< steps in which a fixed dt or dt_min exceeded a stability bound
   std::int64_t emitted = 0;          ///< particles let in by emitters
@@ -101,6 +103,9 @@ class Simulation {
 
  private:
   void look_around();
+  void free_velocities_of_divergence(double dt);
+  void settle_sound_speed(Array3 liquid);
+  double tension() const;
   void accelerate();
   double next_time_step();
   void predict_velocities(double dt);

@@ -2,6 +2,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -105,6 +107,26 @@ std::vector<std::string> misplaced(const Array3& points, const std::vector<std::
   return {faults.begin(), faults.end()};
 }
 
+/// Greatest speed [m/s] that the liquid can be expected to reach: that of the start, of the fall from its highest place
+/// to the lowest boundary particle, and of a film of thickness dx that its tension draws in (Taylor, Culick).
+///   sqrt( v^2 + 2 g H + 2 sigma/(rho0 dx) )
+double expected_speed(const Scene& scene, const Array3& liquid, const Walls& walls, double start_speed,
+                      double tension) {
+  const double g = length(scene.gravity);
+  double fall = 0;
+  if (g > 0) {
+    const auto height = [&](const Vec3r& x) { return -dot(vec_cast<double>(x), scene.gravity) / g; };
+    double highest = -std::numeric_limits<double>::infinity(), lowest = -highest;
+    for (std::size_t k = 0; k < liquid.size(); ++k) {
+      highest = std::max(highest, height(liquid[k]));
+      lowest = std::min(lowest, height(liquid[k]));
+    }
+    for (std::size_t k = 0; k < walls.size(); ++k) lowest = std::min(lowest, height(walls.position[k]));
+    fall = std::max(0.0, highest - lowest);
+  }
+  return std::sqrt(start_speed * start_speed + 2 * g * fall + 2 * tension / (scene.fluid.rest_density * scene.spacing));
+}
+
 }  // namespace
 
 Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
@@ -152,6 +174,7 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
     }
   }
   if (!faults.empty()) throw SceneError(std::move(faults));
+  settle_sound_speed(std::move(points));
   for (std::size_t k = 0; k < particles_.size(); ++k) {
     totals_.energy.start += 0.5 * units_.particle_mass() * static_cast<double>(particles_.mass[k]) *
                             squared_length(vec_cast<double>(particles_.velocity[k]));
@@ -159,6 +182,26 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
   last_step_.kinetic_energy = totals_.energy.start;
   let_in_new_layers();
   look_around();
+}
+
+void Simulation::settle_sound_speed(Array3 liquid) {
+  auto* method = std::get_if<Wcsph>(&scene_.pressure);
+  if (method == nullptr || method->sound_speed) return;
+  for (const LayerSource& source : sources_) {
+    for (std::size_t k = 0; k < source.places().size(); ++k) liquid.push_back(source.places()[k]);
+  }
+  double start_speed = 0;
+  for (std::size_t k = 0; k < particles_.size(); ++k) {
+    start_speed = std::max(start_speed, static_cast<double>(length(particles_.velocity[k])));
+  }
+  for (const Emitter& emitter : scene_.emitters) start_speed = std::max(start_speed, length(emitter.velocity));
+  method->sound_speed = 10 * expected_speed(scene_, liquid, walls_, start_speed, tension());
+  if (*method->sound_speed == 0) {
+    throw SceneError(
+        "pressure.sound_speed: nothing moves, falls or pulls the liquid at the start, so that no speed of sound "
+        "follows; "
+        "give one");
+  }
 }
 
 std::vector<std::string> Simulation::acceleration_names() const {

@@ -14,7 +14,7 @@ Array<Real> density_change(const test::Cloud& cloud, const Array<Real>& pressure
   Array<Real> stress, change;
   Array3 a;
   pressure_acceleration(cloud.view(), pressure, stress, a);
-  iisph_density_change(cloud.view(), a, dt, change);
+  density_change(cloud.view(), a, dt, change);
   return change;
 }
 
@@ -22,7 +22,7 @@ Array<Real> density_change(const test::Cloud& cloud, const Array<Real>& pressure
 void check_diagonal(test::Cloud cloud) {
   cloud.look_around();
   PressureScratch scratch;
-  iisph_coefficients(cloud.view(), cloud.particles.velocity, dt, scratch);
+  pressure_coefficients(cloud.view(), cloud.particles.velocity, dt, scratch);
   Array<Real> base(cloud.particles.size());
   for (std::size_t i = 0; i < base.size(); ++i) base[i] = Real(0.1) * Real(i % 5);
   const Array<Real> before = density_change(cloud, base);
@@ -64,7 +64,7 @@ TEST(Iisph, DiagonalOfACubicLatticeIsTheTabledOne) {
   test::Cloud cloud = test::lattice(9, 0);
   cloud.look_around();
   PressureScratch scratch;
-  iisph_coefficients(cloud.view(), cloud.particles.velocity, 1, scratch);
+  pressure_coefficients(cloud.view(), cloud.particles.velocity, 1, scratch);
   for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
     const Vec3r x = cloud.particles.position[i];
     if (std::min({x.x, x.y, x.z}) < Real(0.25) || std::max({x.x, x.y, x.z}) > Real(0.55)) continue;
@@ -80,7 +80,7 @@ TEST(Iisph, AdvectedDensityIsTheFirstOrderPrediction) {
   }
   cloud.look_around();
   PressureScratch scratch;
-  iisph_coefficients(cloud.view(), cloud.particles.velocity, 1e-2, scratch);
+  pressure_coefficients(cloud.view(), cloud.particles.velocity, 1e-2, scratch);
   test::Cloud moved = cloud;
   for (std::size_t i = 0; i < moved.particles.size(); ++i) {
     moved.particles.position.set(i, cloud.particles.position[i] + Real(1e-2) * cloud.particles.velocity[i]);
@@ -108,7 +108,7 @@ TEST(Iisph, TakesTheCompressionOutAndReportsWhatIsLeft) {
   EXPECT_GE(result.iterations, 2);
   // What it reports is what its acceleration does.
   Array<Real> change;
-  iisph_density_change(cloud.view(), scratch.acceleration, dt, change);
+  density_change(cloud.view(), scratch.acceleration, dt, change);
   double left = 0;
   for (std::size_t i = 0; i < change.size(); ++i) {
     left += std::max(0.0, static_cast<double>(scratch.advected[i]) + static_cast<double>(change[i]) - 1);

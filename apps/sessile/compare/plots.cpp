@@ -27,7 +27,7 @@ std::string literal(std::string_view text) {
 }
 
 /// Earlier lines are wider, so that they show beneath later ones that run along them.
-double width(std::size_t i) { return std::max(1.8, 4.2 - 0.4 * static_cast<double>(i)); }
+double width(std::size_t i) { return std::max(1.6, 3.6 - 0.3 * static_cast<double>(i)); }
 
 /// Whether any method has a value that a logarithmic axis can show.
 bool any_positive(const std::vector<StatsTable>& tables, const Plot& plot) {
@@ -40,9 +40,8 @@ bool any_positive(const std::vector<StatsTable>& tables, const Plot& plot) {
 std::string axis(const Plot& plot, bool logarithmic) {
   std::string text = fmt::format("set title {}\nset ylabel {}\n", literal(plot.title), literal(plot.axis));
   if (logarithmic) return text + "set logscale y\nset format y '10^{%L}'\nset yrange [*:*]\nset offsets 0, 0, 0, 0\n";
-  return text +
-         fmt::format("unset logscale y\nset format y '%g'\nset yrange [{}:*]\nset offsets 0, 0, graph 0.05, {}\n",
-                     plot.from_zero ? "0" : "*", plot.from_zero ? "0" : "graph 0.05");
+  return text + fmt::format("unset logscale y\nset format y '%g'\nset yrange [{}:*]\nset offsets 0, 0, graph 0.05, 0\n",
+                            plot.from_zero ? "0" : "*");
 }
 
 }  // namespace
@@ -61,9 +60,9 @@ std::string plot_script(const fs::path& folder, const std::vector<std::string>& 
   std::vector<StatsTable> tables;
   for (std::size_t i = 0; i < methods.size(); ++i) {
     tables.emplace_back(folder / methods[i] / "stats.csv");
-    script += fmt::format("name{0} = {1}\nfile{0} = {2}\nset style line {0} lw {5} lc rgb '{3}' dashtype {4}\n", i + 1,
-                          literal(methods[i]), literal("../" + methods[i] + "/stats.csv"), colours[i % colours.size()],
-                          1 + i / colours.size(), width(i));
+    script += fmt::format("name{0} = {1}\nfile{0} = {2}\nset style line {0} lw {5:.1f} lc rgb '{3}' dashtype {4}\n",
+                          i + 1, literal(methods[i]), literal(fmt::format("../{}/stats.csv", methods[i])),
+                          colours[i % colours.size()], 1 + i / colours.size(), width(i));
   }
   for (const Plot& plot : plots) {
     script += "\n" + axis(plot, plot.logarithmic && any_positive(tables, plot));

@@ -28,6 +28,8 @@ constexpr auto columns = std::to_array<StatsColumn<StatsRow>>({
     {"bound", "", [](const StatsRow& r) -> Cell { return r.last_step.bound; }},
     {"overruled", "", [](const StatsRow& r) -> Cell { return r.last_step.overruled; }},
     {"iterations", "", [](const StatsRow& r) -> Cell { return std::int64_t{r.last_step.iterations}; }},
+    {"divergence_iterations", "",
+     [](const StatsRow& r) -> Cell { return std::int64_t{r.last_step.divergence_iterations}; }},
     {"predicted_density_error", "", [](const StatsRow& r) -> Cell { return r.last_step.predicted_error; }},
     {"predicted_density_error_max", "", [](const StatsRow& r) -> Cell { return r.last_step.predicted_error_max; }},
     {"density_error", "", [](const StatsRow& r) -> Cell { return r.measured.compression.average; }},

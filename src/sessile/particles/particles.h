@@ -11,11 +11,12 @@ namespace sessile {
 /// The fluid's particles as a structure of arrays. Holds what must survive from step to step, and nothing else:
 /// what a step derives (density, normals, accelerations) belongs to the Simulation.
 struct Particles {
-  Array3 position;         ///< [m]
-  Array3 velocity;         ///< [m/s]
-  Array<Real> mass;        ///< in units of rho0 dx^3, so that no product leaves float's range at any scale
-  Array<Real> pressure;    ///< p / rho0 [m^2/s^2]; the warm start of the next solve
-  Array<std::int64_t> id;  ///< 0, 1, 2 ... in order of appearance; never reused
+  Array3 position;                  ///< [m]
+  Array3 velocity;                  ///< [m/s]
+  Array<Real> mass;                 ///< in units of rho0 dx^3, so that no product leaves float's range at any scale
+  Array<Real> pressure;             ///< p / rho0 [m^2/s^2]; the warm start of the next solve
+  Array<Real> divergence_pressure;  ///< the same of the solver that frees velocities of divergence, where there is one
+  Array<std::int64_t> id;           ///< 0, 1, 2 ... in order of appearance; never reused
 
   /// Calls f(array) for each array above: the only place that lists them all.
   template <class F>
@@ -28,6 +29,7 @@ struct Particles {
     f(velocity.z);
     f(mass);
     f(pressure);
+    f(divergence_pressure);
     f(id);
   }
 

@@ -17,6 +17,7 @@ struct Iisph {
 
   static constexpr std::string_view name = "iisph";
   static constexpr std::string_view summary = "implicit incompressible SPH, relaxed Jacobi (eqs. 24-35)";
+  static constexpr bool frees_velocities_of_divergence = false;
   static constexpr auto fields() {
     using T = Iisph;
     return std::tuple{

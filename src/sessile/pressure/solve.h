@@ -17,27 +17,46 @@ struct PressureResult {
 
 /// Memory that a solve works in, and its result.
 struct PressureScratch {
-  Array3 acceleration;   ///< pressure acceleration [m/s^2] of the solve
-  Array<Real> stress;    ///< p_i/rho_i^2 of that acceleration
-  Array<Real> advected;  ///< advected density over rest density
-  Array<Real> diagonal;  ///< a_ii
-  Array<Real> next;      ///< pressures that an iteration makes
+  Array3 acceleration;        ///< pressure acceleration [m/s^2] of the solve
+  Array<Real> stress;         ///< p_i/rho_i^2 of that acceleration
+  Array<Real> advected;       ///< advected density over rest density
+  Array<Real> diagonal;       ///< a_ii
+  Array<Real> next;           ///< pressures that an iteration makes
+  Array3 predicted_position;  ///< PCISPH's [m]
 };
 
 /// Finds the pressure p / rho0 [m^2/s^2] whose acceleration, over dt, takes the compression out of the motion with the
 /// predicted velocities v*. `pressure` holds the last step's on entry and the new one on return.
-PressureResult solve(const Iisph& method, const StepView& view, const Array3& predicted_velocity, double dt,
-                     Array<Real>& pressure, PressureScratch& scratch);
-
-/// The same for whichever solver the scene names.
 PressureResult solve(const Pressure& method, const StepView& view, const Array3& predicted_velocity, double dt,
                      Array<Real>& pressure, PressureScratch& scratch);
+PressureResult solve(const Iisph& method, const StepView& view, const Array3& predicted_velocity, double dt,
+                     Array<Real>& pressure, PressureScratch& scratch);
+PressureResult solve(const Pcisph& method, const StepView& view, const Array3& predicted_velocity, double dt,
+                     Array<Real>& pressure, PressureScratch& scratch);
+/// Needs method.sound_speed; does not look at v* and dt.
+PressureResult solve(const Wcsph& method, const StepView& view, const Array3& predicted_velocity, double dt,
+                     Array<Real>& pressure, PressureScratch& scratch);
+PressureResult solve(const Dfsph& method, const StepView& view, const Array3& predicted_velocity, double dt,
+                     Array<Real>& pressure, PressureScratch& scratch);
+
+/// Whether a step ends with remove_divergence().
+bool frees_velocities_of_divergence(const Pressure& method);
+
+/// Changes the velocities so that they compress nothing, as if by the pressure p / rho0 [m^2/s^2] over dt, which
+/// `pressure` holds on return (and the last step's on entry). A solver without such a part changes nothing.
+PressureResult remove_divergence(const Pressure& method, const StepView& view, Array3& velocity, double dt,
+                                 Array<Real>& pressure, PressureScratch& scratch);
+PressureResult remove_divergence(const Dfsph& method, const StepView& view, Array3& velocity, double dt,
+                                 Array<Real>& pressure, PressureScratch& scratch);
+
+/// Speed [m/s] at which a solver lets pressure travel, which bounds the time step; 0 where it acts at once.
+double sound_speed(const Pressure& method);
 
 /// a_ii: the derivative of particle i's density after the step by its own pressure (mended 34), and rho_adv (27).
-void iisph_coefficients(const StepView& view, const Array3& predicted_velocity, double dt, PressureScratch& scratch);
+void pressure_coefficients(const StepView& view, const Array3& predicted_velocity, double dt, PressureScratch& scratch);
 
 /// Density that the pressure acceleration takes from particle i over dt (left side of 29, 30), over rest density.
 ///   dt^2 sum_j m_j (a_i - a_j) . grad W_ij + dt^2 sum_b psi_b a_i . grad W_ib
-void iisph_density_change(const StepView& view, const Array3& acceleration, double dt, Array<Real>& change);
+void density_change(const StepView& view, const Array3& acceleration, double dt, Array<Real>& change);
 
 }  // namespace sessile

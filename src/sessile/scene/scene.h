@@ -37,7 +37,7 @@ struct TimeSettings {
         field(&T::dt_min, "dt_min", "s", positive, "least time step; a warning says when it overrules a bound"),
         field(&T::dt_max, "dt_max", "s", positive, "greatest time step"),
         field(&T::growth, "growth", "", between(1, 2), "most that a step may grow over the one before"),
-        field(&T::cfl, "cfl", "", positive, "dt <= cfl * dx / |v|max"),
+        field(&T::cfl, "cfl", "", positive, "dt <= cfl * dx / |v|max; with a speed of sound c_s: dx / (c_s + |v|max)"),
         field(&T::force_factor, "force_factor", "", positive,
               "dt <= force_factor * sqrt(dx / |a|max), a without pressure"),
         field(&T::viscosity_factor, "viscosity_factor", "", positive, "dt <= viscosity_factor * rho0 dx^2 / mu"),

@@ -8,8 +8,10 @@
 namespace sessile {
 namespace {
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
 /// a/b, or infinity when there is nothing to bound.
-double ratio(double a, double b) { return b > 0 ? a / b : std::numeric_limits<double>::infinity(); }
+double ratio(double a, double b) { return b > 0 ? a / b : infinite; }
 
 struct Bound {
   std::string_view name;
@@ -20,6 +22,7 @@ Bound stability_bound(const TimeSettings& settings, const MotionScale& s) {
   const double dx = s.spacing;
   const std::array bounds{
       Bound{"cfl", settings.cfl * ratio(dx, s.speed)},
+      Bound{"sound", s.sound_speed > 0 ? settings.cfl * ratio(dx, s.sound_speed + s.speed) : infinite},
       Bound{"force", settings.force_factor * std::sqrt(ratio(dx, s.acceleration))},
       Bound{"viscosity", settings.viscosity_factor * ratio(s.rest_density * dx * dx, s.viscosity)},
       Bound{"capillary", settings.capillary_factor *

@@ -13,18 +13,20 @@ struct MotionScale {
   double speed = 0;         ///< greatest |v| [m/s]
   double acceleration = 0;  ///< greatest |a| without pressure [m/s^2]
   double viscosity = 0;     ///< greatest mu, walls included [Pa s]
+  double sound_speed = 0;   ///< at which pressure travels; 0 where it acts at once [m/s]
   double tension = 0;       ///< macroscopic sigma of all forces [N/m]
 };
 
 /// A time step and what set it.
 struct TimeStep {
   double dt = 0;               ///< [s]
-  std::string_view bound;      ///< cfl, force, viscosity, capillary, growth, dt_max, dt_min or fixed
+  std::string_view bound;      ///< cfl, sound, force, viscosity, capillary, growth, dt_max, dt_min or fixed
   std::string_view overruled;  ///< the stability bound that dt_min or a fixed dt exceeds, or ""
 };
 
 /// The largest step that every bound allows (docs/model.md):
-///   cfl dx/|v|max,  force sqrt(dx/|a|max),  viscosity rho0 dx^2/mu,  capillary sqrt(rho0 dx^3/(2 pi sigma)),
+///   cfl dx/|v|max,  sound: cfl dx/(c_s + |v|max),  force sqrt(dx/|a|max),  viscosity rho0 dx^2/mu,  capillary
+///   sqrt(rho0 dx^3/(2 pi sigma)),
 /// kept in [dt_min, dt_max] and growing at most by `growth` over `last` (0: no step yet).
 TimeStep choose_time_step(const TimeSettings& settings, const MotionScale& scale, double last);
 
