@@ -84,7 +84,7 @@ class Models(CliTest):
     """Written out by hand: a model that disappears from the program, or comes without its page, is noticed."""
 
     GROUPS = {
-        "Pressure solvers (pressure)": ["iisph"],
+        "Pressure solvers (pressure)": ["iisph", "pcisph", "wcsph", "dfsph"],
         "Forces (forces[])": ["surface_feature"],
         "Shapes (shape of a body, an emitter or a solid)":
             ["box", "sphere", "cylinder", "mesh", "rectangle", "disc", "plate", "container"],

@@ -19,11 +19,12 @@ struct DamBreak {
   Totals totals;
 };
 
-DamBreak collapse(int per_width, double T_end) {
+DamBreak collapse(int per_width, double T_end, const Pressure& solver) {
   const double a = 1, dx = a / per_width, g = 9.81;
   Scene scene;
   scene.spacing = dx;
   scene.fluid.viscosity = 1;
+  scene.pressure = solver;
   scene.time.dt_max = 4e-3;
   scene.time.end = T_end / std::sqrt(2 * g / a);
   const double thickness = 6 * dx, length = 5 * a;
@@ -73,8 +74,8 @@ double front_at(const DamBreak& dam, double T) {
 
 /// The goal is 10 %. The later points meet it; at T = 0.84 to 1.63 the front leads by up to 18 %, as published
 /// SPH fronts do (why is not shown; see docs/validation.md): held here to 20 %, and reported.
-void check_dam_break(int per_width) {
-  const DamBreak dam = collapse(per_width, 2.55);
+void check_dam_break(int per_width, const Pressure& solver) {
+  const DamBreak dam = collapse(per_width, 2.55, solver);
   struct Measured {
     double T, Z, tolerance;
   };
@@ -96,9 +97,10 @@ void check_dam_break(int per_width) {
   EXPECT_EQ(dam.totals.unconverged_solves, 0);
 }
 
-TEST(DamBreak, FollowsMartinAndMoyce) { check_dam_break(16); }
+TEST(DamBreak, FollowsMartinAndMoyce) { check_dam_break(16, Iisph{}); }
+TEST(DamBreak, FollowsMartinAndMoyceByDfsph) { check_dam_break(16, Dfsph{}); }
 
-TEST(DamBreakSlow, FollowsMartinAndMoyceFiner) { check_dam_break(30); }
+TEST(DamBreakSlow, FollowsMartinAndMoyceFiner) { check_dam_break(30, Iisph{}); }
 
 }  // namespace
 }  // namespace sessile

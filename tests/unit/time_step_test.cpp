@@ -24,6 +24,11 @@ TEST(TimeStep, EachBoundIsItsFormula) {
   EXPECT_EQ(choose_time_step(wide(), moving, 0).bound, "cfl");
   EXPECT_DOUBLE_EQ(choose_time_step(wide(), moving, 0).dt, 0.4 * 0.1 / 3);
 
+  MotionScale sounding = moving;
+  sounding.sound_speed = 50;
+  EXPECT_EQ(choose_time_step(wide(), sounding, 0).bound, "sound");
+  EXPECT_DOUBLE_EQ(choose_time_step(wide(), sounding, 0).dt, 0.4 * 0.1 / 53);
+
   MotionScale pushed = scale;
   pushed.acceleration = 9.81;
   EXPECT_EQ(choose_time_step(wide(), pushed, 0).bound, "force");

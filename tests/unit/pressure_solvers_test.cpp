@@ -1,0 +1,323 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "sessile/core/error.h"
+#include "sessile/pressure/pressure_force.h"
+#include "sessile/pressure/solve.h"
+#include "support/cloud.h"
+#include "support/scenes.h"
+
+namespace sessile {
+namespace {
+
+constexpr double dt = 0.002;
+constexpr double rounding = sizeof(Real) == 4 ? 2e-4 : 1e-11;
+
+/// A block above a floor that moves on to it at `speed` [m/s].
+test::Cloud falling_block(double speed, unsigned seed = 1) {
+  test::Cloud cloud = test::lattice(8, 0.05, true, seed);
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+    cloud.particles.velocity.set(i, {0, 0, static_cast<Real>(-speed)});
+  }
+  cloud.look_around();
+  return cloud;
+}
+
+struct Solved {
+  PressureResult result;
+  Array<Real> pressure;
+  PressureScratch scratch;
+};
+
+Solved solved(const Pressure& method, const test::Cloud& cloud, bool one_lane = false) {
+  Solved s;
+  s.pressure.assign(cloud.particles.size(), 0);
+  s.result = solve(method, cloud.view(one_lane), cloud.particles.velocity, dt, s.pressure, s.scratch);
+  return s;
+}
+
+/// Average compression at the positions that a solve leads to, with new neighbours.
+double real_error(const test::Cloud& cloud, const Solved& s) {
+  test::Cloud moved = cloud;
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+    const Vec3r v = cloud.particles.velocity[i] + static_cast<Real>(dt) * s.scratch.acceleration[i];
+    moved.particles.position.set(i, cloud.particles.position[i] + static_cast<Real>(dt) * v);
+  }
+  moved.look_around();
+  double sum = 0;
+  for (const Real rho : moved.density) sum += std::max(0.0, static_cast<double>(rho) - 1);
+  return sum / static_cast<double>(moved.density.size());
+}
+
+std::vector<Pressure> every_solver() {
+  Wcsph wcsph;
+  wcsph.sound_speed = 40;
+  return {Iisph{}, Pcisph{}, wcsph, Dfsph{}};
+}
+std::string name_of(const Pressure& method) {
+  return std::visit([](const auto& chosen) { return std::string(chosen.name); }, method);
+}
+
+static_assert(std::variant_size_v<Pressure> == 4, "a new solver belongs into every_solver()");
+
+TEST(EverySolver, LanesAgreeWithOneLane) {
+  const test::Cloud cloud = falling_block(1);
+  for (const Pressure& method : every_solver()) {
+    const Solved lanes = solved(method, cloud), one = solved(method, cloud, true);
+    EXPECT_LT(test::difference(lanes.scratch.acceleration, one.scratch.acceleration), rounding) << name_of(method);
+  }
+}
+
+TEST(EverySolver, GivesTheSameBitsForAnyNumberOfThreads) {
+  for (const Pressure& method : every_solver()) {
+    const auto state = [&](int threads) {
+      Particles end;
+      test::with_threads(threads, [&] {
+        Scene scene = test::column(10, 10, 1e-3);
+        scene.pressure = method;
+        scene.forces = {SurfaceFeature{}};
+        scene.bodies[0].velocity = {0.3, 0.1, -2};
+        Simulation simulation(scene);
+        for (int k = 0; k < 20; ++k) simulation.step();
+        end = simulation.particles();
+      });
+      return end;
+    };
+    const Particles one = state(1);
+    for (const int threads : {2, 8}) {
+      const Particles many = state(threads);
+      EXPECT_EQ(one.position.z, many.position.z) << name_of(method) << ", " << threads;
+      EXPECT_EQ(one.velocity.x, many.velocity.x) << name_of(method);
+      EXPECT_EQ(one.pressure, many.pressure) << name_of(method);
+      EXPECT_EQ(one.divergence_pressure, many.divergence_pressure) << name_of(method);
+    }
+  }
+}
+
+TEST(EverySolver, PressureNeverPulls) {
+  const test::Cloud cloud = falling_block(1);
+  for (const Pressure& method : every_solver()) {
+    const Solved s = solved(method, cloud);
+    EXPECT_GE(*std::min_element(s.pressure.begin(), s.pressure.end()), 0) << name_of(method);
+    EXPECT_GT(*std::max_element(s.pressure.begin(), s.pressure.end()), 0) << name_of(method);
+    Array<Real> stress;  // the acceleration is that of the pressures handed back
+    Array3 a;
+    pressure_acceleration(cloud.view(), s.pressure, stress, a);
+    EXPECT_EQ(test::difference(a, s.scratch.acceleration), 0) << name_of(method);
+  }
+}
+
+TEST(EverySolver, RunsWithoutParticles) {
+  for (const Pressure& method : every_solver()) {
+    const Solved s = solved(method, {});
+    EXPECT_TRUE(s.result.converged) << name_of(method);
+    EXPECT_EQ(s.result.error, 0) << name_of(method);
+  }
+}
+
+TEST(EverySolver, ThatIteratesTakesTheCompressionOut) {
+  const test::Cloud cloud = falling_block(1);
+  Solved nothing;
+  nothing.scratch.acceleration.assign(cloud.particles.size(), {});
+  const double without = real_error(cloud, nothing);
+  for (const Pressure& method : every_solver()) {
+    if (std::holds_alternative<Wcsph>(method)) continue;
+    const Solved s = solved(method, cloud);
+    EXPECT_TRUE(s.result.converged) << name_of(method);
+    EXPECT_LE(s.result.error, 1e-4) << name_of(method);
+    EXPECT_GT(s.result.iterations, 3) << name_of(method);
+    // IISPH and DFSPH predict densities to first order in the step; the rest is left.
+    EXPECT_LT(real_error(cloud, s), 0.2 * without) << name_of(method);
+  }
+}
+
+// A lattice that is squeezed alike everywhere: the first correction inside is delta times the compression, with
+// delta = 1/(2 dt^2 sum |grad W|^2) and sum |grad W|^2 = 42.5 / m^2 of the cubic lattice (docs/model.md).
+TEST(Pcisph, FirstCorrectionIsDeltaTimesTheCompression) {
+  test::Cloud cloud = test::lattice(11, 0);
+  const Real squeeze = Real(0.99);
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+    cloud.particles.position.set(i, squeeze * cloud.particles.position[i]);
+    cloud.particles.velocity.set(i, {});
+  }
+  cloud.look_around();
+  Pcisph method;
+  method.max_iterations = 2;  // measures, corrects, measures
+  const Solved s = solved(method, cloud);
+  const double middle = 0.5 * 0.99;
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+    if (length(vec_cast<double>(cloud.particles.position[i]) - Vec3d{middle, middle, middle}) > 0.05) continue;
+    const double compression = static_cast<double>(cloud.density[i]) - 1;
+    EXPECT_GT(compression, 0.02);
+    EXPECT_NEAR(static_cast<double>(s.pressure[i]) / (compression / (2 * dt * dt * 42.5)), 1, 5e-3);
+  }
+}
+
+TEST(Pcisph, ItsErrorIsThatAtThePredictedPositions) {
+  const test::Cloud cloud = falling_block(1);
+  const Solved s = solved(Pcisph{}, cloud);
+  // Neighbours that come into reach within the step are all it misses: their W is next to nothing.
+  EXPECT_NEAR(s.result.error, real_error(cloud, s), 2e-6);
+}
+
+TEST(Pcisph, LighterParticlesGetTheSamePressure) {
+  // Particles of 0.8 mass at rest density stand 0.8^(1/3) apart: the prototype must shrink with them.
+  const auto pressure = [](double mass) {
+    test::Cloud cloud = test::lattice(11, 0);
+    const double squeeze = 0.99 * std::cbrt(mass), middle = 0.5 * squeeze;
+    for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+      cloud.particles.position.set(i, static_cast<Real>(squeeze) * cloud.particles.position[i]);
+      cloud.particles.velocity.set(i, {});
+      cloud.particles.mass[i] = static_cast<Real>(mass);
+    }
+    cloud.look_around();
+    const Solved s = solved(Pcisph{1e-4, 3, 200}, cloud);
+    EXPECT_TRUE(s.result.converged);
+    for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+      if (length(vec_cast<double>(cloud.particles.position[i]) - Vec3d{middle, middle, middle}) < 0.05) {
+        return static_cast<double>(s.pressure[i]);
+      }
+    }
+    return 0.0;
+  };
+  EXPECT_NEAR(pressure(0.8) / pressure(1), 1, 0.35);
+}
+
+TEST(Wcsph, PressureIsTaits) {
+  const test::Cloud cloud = falling_block(1);
+  Wcsph method;
+  method.sound_speed = 30;
+  method.gamma = 7;
+  const Solved s = solved(method, cloud);
+  int compressed = 0;
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+    const auto rho = static_cast<double>(cloud.density[i]);
+    const double tait = 30.0 * 30 / 7 * (std::pow(rho, 7) - 1);
+    EXPECT_NEAR(static_cast<double>(s.pressure[i]), std::max(0.0, tait), 1e-3);
+    compressed += tait > 0;
+  }
+  EXPECT_GT(compressed, 10);
+}
+
+TEST(Wcsph, SpeedOfSoundFollowsFromFallStartAndTension) {
+  Scene scene = test::block(4);
+  scene.time.fixed_dt.reset();
+  scene.gravity = {0, 0, -9.81};
+  scene.bodies[0].placement.position = {0, 0, 2};  // its highest particles at 2.15
+  scene.bodies[0].velocity = {3, 0, 0};
+  scene.forces = {SurfaceFeature{7.4, 1, 500, Direction::displacement}};
+  Solid floor;
+  floor.shape = Plate{1, 1};
+  scene.solids = {floor};
+  scene.pressure = Wcsph{};
+  const double sigma = 271.0 / 135168 * 7.4 * 1e6 * 0.008;
+  const Simulation simulation(scene);
+  const double c = *std::get<Wcsph>(simulation.scene().pressure).sound_speed;
+  EXPECT_NEAR(c, 10 * std::sqrt(9 + 2 * 9.81 * 2.15 + 2 * sigma / 100), 1e-3);
+
+  scene.pressure = Wcsph{50.0, 7};
+  Simulation given(scene);
+  EXPECT_EQ(*std::get<Wcsph>(given.scene().pressure).sound_speed, 50);
+  given.step();
+  EXPECT_EQ(given.last_step().bound, "sound");
+  EXPECT_DOUBLE_EQ(given.last_step().dt, 0.4 * 0.1 / 53);
+}
+
+TEST(Wcsph, RefusesASceneThatGivesNoSpeedOfSound) {
+  Scene scene = test::block(4);  // no gravity, no motion, no tension
+  scene.pressure = Wcsph{};
+  EXPECT_THROW(Simulation{scene}, SceneError);
+}
+
+class DivergenceSolve : public testing::Test {
+ protected:
+  void run(bool one_lane = false) {
+    pressure.assign(cloud.particles.size(), 0);
+    velocity = cloud.particles.velocity;
+    result = remove_divergence(method, cloud.view(one_lane), velocity, dt, pressure, scratch);
+  }
+  test::Cloud cloud = falling_block(1);
+  Dfsph method{.divergence_error = 1e-5};
+  Array<Real> pressure;
+  Array3 velocity;
+  PressureScratch scratch;
+  PressureResult result;
+};
+
+TEST_F(DivergenceSolve, LeavesVelocitiesThatDoNotCompress) {
+  run();
+  EXPECT_TRUE(result.converged);
+  const auto compression = [&](const Array3& v) {  // average of what a step would bring
+    PressureScratch of;
+    pressure_coefficients(cloud.view(), v, dt, of);
+    double sum = 0;
+    for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+      if (cloud.near.count(i) + cloud.near_walls.count(i) < method.least_neighbors) continue;
+      sum += std::max(0.0, static_cast<double>(of.advected[i] - cloud.density[i]));
+    }
+    return sum / static_cast<double>(cloud.particles.size());
+  };
+  EXPECT_GT(compression(cloud.particles.velocity), 20 * method.divergence_error);
+  EXPECT_LT(compression(velocity), 1.1 * method.divergence_error);
+  EXPECT_NEAR(compression(velocity), result.error, 0.1 * method.divergence_error);
+}
+
+TEST_F(DivergenceSolve, LanesAgreeWithOneLane) {
+  run();
+  const Array3 lanes = velocity;
+  run(true);
+  EXPECT_LT(test::difference(lanes, velocity), rounding);
+}
+
+TEST_F(DivergenceSolve, LetsLiquidFlyApart) {
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+    cloud.particles.velocity.set(i, cloud.particles.position[i] + Vec3r{0, 0, Real(0.2)});
+  }
+  run();
+  EXPECT_EQ(result.iterations, 1);
+  EXPECT_EQ(test::difference(velocity, cloud.particles.velocity), 0);
+}
+
+TEST_F(DivergenceSolve, LetsParticlesWithFewNeighboursBe) {
+  cloud = {};
+  cloud.add({0, 0, 0}, {1, 0, 0});
+  cloud.add({0.12, 0, 0}, {-1, 0, 0});
+  cloud.look_around();
+  run();
+  EXPECT_EQ(velocity[0], (Vec3r{1, 0, 0}));
+  method.least_neighbors = 0;
+  run();
+  EXPECT_LT(velocity[0].x, Real(0.1)) << "else they are stopped";
+}
+
+TEST_F(DivergenceSolve, ConservesMomentumAwayFromWalls) {
+  cloud = test::lattice(9, 0.2);
+  cloud.look_around();
+  run();
+  Array3 gained = velocity;
+  for (std::size_t i = 0; i < gained.size(); ++i) gained.set(i, velocity[i] - cloud.particles.velocity[i]);
+  EXPECT_LT(test::net_over_total(cloud, gained), sizeof(Real) == 4 ? 1e-5 : 1e-12);
+}
+
+TEST(Dfsph, StepsEndWithVelocitiesFreeOfDivergenceAndTheWallFeelsIt) {
+  Scene scene = test::column(8, 8);
+  scene.gravity = {};
+  scene.bodies[0].velocity = {0, 0, -1};
+  scene.pressure = Dfsph{};
+  Simulation simulation(scene);
+  const double mass = simulation.units().particle_mass() * 512;
+  double impulse = 0;
+  for (int k = 0; k < 30; ++k) {
+    simulation.step();
+    impulse += simulation.last_step().dt * simulation.walls().forces[0].force.z;
+  }
+  EXPECT_GT(simulation.totals().divergence_iterations, 29);
+  double momentum = 0;
+  for (const Real vz : simulation.particles().velocity.z) momentum += mass / 512 * static_cast<double>(vz);
+  EXPECT_NEAR(impulse / -(momentum + mass), 1, 1e-3) << "both solvers push the floor with what they take";
+}
+
+}  // namespace
+}  // namespace sessile
