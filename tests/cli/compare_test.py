@@ -128,6 +128,21 @@ class Results(CompareTest):
         for link in re.findall(r"\]\((.*?)\)", markdown):
             self.assertTrue((self.folder / "out" / link).exists(), link)
 
+    def test_time_to_rest(self):
+        # The block falls out of the domain, and nothing moves any more. Before it does, it only gets faster.
+        scene = tiny(solids=[], time={"end": 0.5, "fixed_dt": 0.005}, domain={"min": [-1, -1, 0], "max": [1, 1, 1]})
+        self.compare("nothing", scene=scene)
+        with open(self.folder / "out/nothing/stats.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        empty = [float(row["time [s]"]) for row in rows if row["particles"] == "0"]
+        outcome = self.report()["methods"][0]["runs"][0]["outcome"]
+        self.assertEqual(outcome["time_to_rest_s"], empty[0])
+        self.assertEqual((outcome["out"]["final"], outcome["particles"]["greatest"]), (27, 27))
+        self.assertIn(f"| time to rest | {empty[0]:.4g} s |", self.markdown())
+        self.compare("nothing", "--until", "0.2", scene=scene)
+        self.assertIsNone(self.report()["methods"][0]["runs"][0]["outcome"]["time_to_rest_s"])
+        self.assertIn("| time to rest | not reached |", self.markdown())
+
     def test_plots(self):
         # Lines that part: else the first would lie beneath the second but in the legend.
         self.compare("nothing,under_score,mine/it's {odd}.json", scene=tiny(time={"end": 0.3, "fixed_dt": 0.005}),

@@ -194,7 +194,7 @@ TEST(Structure, MeasuresTheWettedArea) {
 TEST(Structure, CountsWhatSolidsHold) {
   Sample sample;
   sample.wall = lattice(12, 12, 1, 0.1);
-  sample.position = lattice(2, 2, 6, 0.1, {0.1, 0.1, 0.1});          // a pillar on the wall: held up to its top
+  sample.position = lattice(2, 2, 6, 0.1, {0.1, 0.1, 0.1});           // a pillar on the wall: held up to its top
   append(sample.position, lattice(3, 3, 3, 0.1, {0.6, 0.6, 0.155}));  // hovers 1.55 dx above it: not held
   append(sample.position, lattice(1, 1, 1, 0.1, {0.1, 0.9, 0.1}));    // alone on the wall: held
   const Structure s = sample.measured();
@@ -271,9 +271,19 @@ TEST(Diagnostics, AreTheSameBitsForAnyNumberOfThreads) {
     const Motion m = motion(sample.position, sample.position, mass, 1, {1, 2, -9.81});
     const Extent e = extent(sample.position, mass);
     const Structure s = structure({sample.position, sample.wall, fluid.rows(), walls.rows(), {}, sample.spacing, 0.2});
-    return std::vector<double>{m.kinetic_energy,     m.potential_energy, m.momentum.x,    m.max_speed,
-                               e.radius_of_gyration, e.farthest,         s.largest_share, s.nearest_p5,
-                               s.wetted_area,        double(s.pieces),   double(s.loose), double(s.held), compression(mass).average};
+    return std::vector<double>{m.kinetic_energy,
+                               m.potential_energy,
+                               m.momentum.x,
+                               m.max_speed,
+                               e.radius_of_gyration,
+                               e.farthest,
+                               s.largest_share,
+                               s.nearest_p5,
+                               s.wetted_area,
+                               double(s.pieces),
+                               double(s.loose),
+                               double(s.held),
+                               compression(mass).average};
   };
   const int threads = omp_get_max_threads();
   const auto one = measured(1), two = measured(2), eight = measured(8);

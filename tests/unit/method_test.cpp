@@ -71,8 +71,8 @@ constexpr const char* scene_text = R"({"spacing": 0.1, "time": {"end": 1},
 
 TEST_F(Methods, TakeThePlaceOfTheScenesOwn) {
   const ResolvedScene scene = read_resolved_scene(write("s.json", scene_text));
-  const ResolvedMethod method = read_resolved_method(
-      write("m.json", R"({"pressure": {"type": "iisph", "max_iterations": 7}, "forces": [{"type": "surface_feature"}]})"));
+  const ResolvedMethod method = read_resolved_method(write(
+      "m.json", R"({"pressure": {"type": "iisph", "max_iterations": 7}, "forces": [{"type": "surface_feature"}]})"));
   const ResolvedScene both = with_method(scene, method, check_output);
   EXPECT_EQ(both.scene.forces.size(), 1u);
   EXPECT_EQ(std::get<Iisph>(both.scene.pressure).max_iterations, 7);
@@ -88,7 +88,8 @@ TEST_F(Methods, AreJudgedWithTheScene) {
   EXPECT_NO_THROW(with_method(scene, none));
   const Lines faults = faults_in([&] { with_method(scene, none, check_output); });
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_TRUE(has(faults[0], "s.json:3: output.fields[1]: unknown field \"acceleration_surface_feature\"")) << faults[0];
+  EXPECT_TRUE(has(faults[0], "s.json:3: output.fields[1]: unknown field \"acceleration_surface_feature\""))
+      << faults[0];
   const ResolvedMethod turned = read_resolved_method(
       write("t.json", "{\"pressure\": {\"type\": \"iisph\",\n\"min_iterations\": 9, \"max_iterations\": 3}}"));
   EXPECT_TRUE(has(faults_in([&] { with_method(scene, turned); }).at(0), "t.json:2: pressure.m"));

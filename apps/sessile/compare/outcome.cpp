@@ -53,7 +53,7 @@ std::optional<double> time_to_rest(const std::vector<double>& time, const std::v
   if (energy.empty() || time.size() != energy.size()) return {};
   const double limit = share * *std::max_element(energy.begin(), energy.end());
   std::size_t first = energy.size();
-  while (first > 0 && energy[first - 1] < limit) --first;
+  while (first > 0 && energy[first - 1] <= limit) --first;
   if (first == energy.size()) return {};
   return time[first];
 }

@@ -60,7 +60,7 @@ struct Outcome {
   std::array<Course, quantities.size()> courses{};
 };
 
-/// The first time after which the energy stays below a share of its peak; nothing when the last one is not below.
+/// The first time from which on the energy is at most a share of its peak; nothing when the last one is above.
 std::optional<double> time_to_rest(const std::vector<double>& time, const std::vector<double>& energy,
                                    double share = 1e-4);
 

@@ -12,6 +12,7 @@
 #include "sessile/measure/step_search.h"
 #include "sessile/output/file.h"
 #include "sessile/scene/describe.h"
+#include "sessile/version.h"
 
 namespace sessile::app {
 namespace {
@@ -97,7 +98,7 @@ RunRecord run_or_reuse(const ResolvedScene& resolved, const TrialSettings& setti
                        const std::string& label, bool stop_unsound) {
   const std::filesystem::path path = settings.folder / folder, verdict = path / "verdict.json";
   const auto before = read_verdict(verdict);
-  if (before && before->finished() && before->scene == to_json(resolved.scene)) {
+  if (before && before->finished() && before->version == version() && before->scene == to_json(resolved.scene)) {
     tell(settings, label, ending(*before, true));
     return *before;
   }

@@ -56,13 +56,15 @@ void Soundness::finish() {
                                   100 * limits_.density_error));
   }
   if (unconverged_share() > limits_.unconverged) {
-    judge(last_.time, fmt::format("{} of {} pressure solves ended above their error, {:.3g} %; the limit is {:g} %",
-                                  last_.unconverged_solves, last_.steps, 100 * unconverged_share(),
-                                  100 * limits_.unconverged));
+    judge(last_.time,
+          fmt::format("{} of {} pressure solves ended above their error, {:.3g} %; the limit is {:g} %",
+                      last_.unconverged_solves, last_.steps, 100 * unconverged_share(), 100 * limits_.unconverged));
   }
 }
 
-double Soundness::density_error() const { return error_sum_ / static_cast<double>(std::max<std::int64_t>(1, last_.steps)); }
+double Soundness::density_error() const {
+  return error_sum_ / static_cast<double>(std::max<std::int64_t>(1, last_.steps));
+}
 
 double Soundness::unconverged_share() const { return share(last_.unconverged_solves, last_.steps); }
 

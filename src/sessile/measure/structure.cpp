@@ -116,7 +116,7 @@ Structure structure(const Cloud& cloud) {
   if (n == 0) return result;
 
   Sets sets(n);
-  Array<Real> nearest(n);                     // squared distance [m^2]
+  Array<Real> nearest(n);                    // squared distance [m^2]
   std::vector<unsigned char> touches(n, 0);  // whether it is of the first layer
   const auto link2 = static_cast<Real>(std::pow(link_distance * cloud.spacing, 2));
   const auto support2 = static_cast<Real>(std::pow(cloud.support_radius, 2));
