@@ -52,7 +52,7 @@ void Soundness::fail(double time, const std::string& message) { judge(time, mess
 
 void Soundness::finish() {
   if (density_error() > limits_.density_error) {
-    judge(last_.time, fmt::format("the mean density error is {:.3g} %; the limit is {:g} %", 100 * density_error(),
+    judge(last_.time, fmt::format("the mean density error is {:.4g} %; the limit is {:g} %", 100 * density_error(),
                                   100 * limits_.density_error));
   }
   if (unconverged_share() > limits_.unconverged) {
