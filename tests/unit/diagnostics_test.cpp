@@ -194,7 +194,8 @@ TEST(Structure, MeasuresTheWettedArea) {
 TEST(Structure, CountsWhatSolidsHold) {
   Sample sample;
   sample.wall = lattice(12, 12, 1, 0.1);
-  sample.position = lattice(2, 2, 6, 0.1, {0.1, 0.1, 0.1});           // a pillar on the wall: held up to its top
+  sample.position = lattice(2, 2, 5, 0.1, {0.1, 0.1, 0.2});  // a pillar on the wall, its top first: held
+  append(sample.position, lattice(2, 2, 1, 0.1, {0.1, 0.1, 0.1}));
   append(sample.position, lattice(3, 3, 3, 0.1, {0.6, 0.6, 0.155}));  // hovers 1.55 dx above it: not held
   append(sample.position, lattice(1, 1, 1, 0.1, {0.1, 0.9, 0.1}));    // alone on the wall: held
   const Structure s = sample.measured();

@@ -170,7 +170,7 @@ std::string search_tables(const Comparison& comparison) {
                                                  : "the search was not finished";
     text += fmt::format("### {}: {}\n\n", cell(method.name), result);
     if (method.trials.empty()) continue;
-    text += table_head({"step", "to", "verdict", "at", "why", "time"}, 0);
+    text += table_head({"step", "to", "verdict", "at", "why", "time"}, 5);
     for (const TrialReport& trial : method.trials) {
       const RunRecord& run = trial.record;
       text += table_line({fmt::format("[{}]({})", milliseconds(trial.dt), address(trial.folder)),

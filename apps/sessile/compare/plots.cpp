@@ -65,7 +65,8 @@ std::string plot_script(const fs::path& folder, const std::vector<std::string>& 
                           colours[i % colours.size()], 1 + i / colours.size(), width(i));
   }
   for (const Plot& plot : plots) {
-    script += "\n" + axis(plot, plot.logarithmic && any_positive(tables, plot));
+    script += '\n';
+    script += axis(plot, plot.logarithmic && any_positive(tables, plot));
     std::string lines;
     for (std::size_t i = 1; i <= methods.size(); ++i) {
       const std::string value = plot.of_steps ? fmt::format("(column('step') > 0 ? column('{}') : NaN)", plot.column)
