@@ -19,7 +19,7 @@ struct Dfsph {
   int min_iterations = 2;
   int max_iterations = 200;
   int max_divergence_iterations = 200;
-  double warm_start = 0.5;
+  double warm_start = 0.25;
   int least_neighbors = 20;
 
   static constexpr std::string_view name = "dfsph";
