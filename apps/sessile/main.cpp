@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
       "130 interrupted.");
   int exit_code = app::done;
   app::add_run(program, exit_code);
+  app::add_compare(program, exit_code);
   app::add_check(program, exit_code);
   app::add_info(program, exit_code);
   app::add_models(program, exit_code);
@@ -77,8 +78,9 @@ int main(int argc, char** argv) {
     app::say(stderr, fmt::format("sessile: {}\n", e.what()));
     return app::run_failed;
   }
-  // What the other commands print is all they are for; a run has its files.
-  if (!program.got_subcommand("run") && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
+  // What the other commands print is all they are for; these have their files.
+  const bool has_files = program.got_subcommand("run") || program.got_subcommand("compare");
+  if (!has_files && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
     app::say(stderr, "sessile: cannot write to standard output\n");
     return app::run_failed;
   }

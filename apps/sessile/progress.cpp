@@ -53,6 +53,7 @@ void Progress::show(const Simulation& simulation) {
   const StepReport& last = simulation.last_step();
   if (style_ == ProgressStyle::json) {
     Json::Value line;
+    if (!run_.empty()) line["run"] = run_;
     line["time"] = time;
     line["end"] = end;
     line["step"] = static_cast<Json::Int64>(simulation.totals().steps);
@@ -66,10 +67,12 @@ void Progress::show(const Simulation& simulation) {
     print_line(line);
     return;
   }
-  const std::string line = fmt::format(
-      "{:5.1f} %  t {:.4f} of {:g} s  step {}  dt {:.3g} s ({})  {} iterations  {} particles  {:.1f} steps/s  {} left",
-      100 * share, time, end, simulation.totals().steps, last.dt, last.bound, last.iterations,
-      simulation.particles().size(), rate, duration_text(left));
+  const std::string line = (run_.empty() ? "" : run_ + "  ") +
+                           fmt::format(
+                               "{:5.1f} %  t {:.4f} of {:g} s  step {}  dt {:.3g} s ({})  {} iterations  {} particles  "
+                               "{:.1f} steps/s  {} left",
+                               100 * share, time, end, simulation.totals().steps, last.dt, last.bound, last.iterations,
+                               simulation.particles().size(), rate, duration_text(left));
   if (style_ == ProgressStyle::terminal) {
     say(stderr, "\r\033[K" + line);
     line_open_ = true;
@@ -92,12 +95,13 @@ void Progress::warn(const std::string& message) {
   if (style_ == ProgressStyle::none) return;  // the lines at the end and the summary count what was warned of
   if (style_ == ProgressStyle::json) {
     Json::Value line;
+    if (!run_.empty()) line["run"] = run_;
     line["warning"] = message;
     print_line(line);
     return;
   }
   finish();
-  say(stderr, "warning: " + message + "\n");
+  say(stderr, "warning: " + (run_.empty() ? "" : run_ + " ") + message + "\n");
 }
 
 }  // namespace sessile::app

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <utility>
 
 #include "sessile/simulation.h"
 
@@ -16,7 +17,8 @@ ProgressStyle progress_style(const std::string& word);
 /// Shows how far a run is: on standard error for people, on standard output as JSON lines for programs.
 class Progress {
  public:
-  explicit Progress(ProgressStyle style) : style_(style) {}
+  /// `run` names the run where a program makes several.
+  explicit Progress(ProgressStyle style, std::string run = {}) : style_(style), run_(std::move(run)) {}
   ~Progress() { finish(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -36,6 +38,7 @@ class Progress {
   void finish();
 
   ProgressStyle style_;
+  std::string run_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_ = start_;
   bool line_open_ = false;

@@ -75,6 +75,7 @@ void Recorder::record(const Simulation& simulation) {
 }
 
 void Recorder::write_frame(const Simulation& simulation) {
+  if (simulation.scene().output.formats.empty()) return;
   frame_time_ = simulation.time();
   output_seconds_ += seconds_of([&] { frames_.push(take_snapshot(simulation, simulation.scene().output.columns)); });
 }

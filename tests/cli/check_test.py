@@ -69,7 +69,7 @@ class CheckJson(CliTest):
         self.assertEqual((scene["time"]["end"], scene["gravity"]), (2.5, [0, 1, 0]))
 
     def test_of_every_scene_of_the_project(self):
-        paths = sorted(path for path in SCENES.rglob("*.json") if "1m" not in path.name)
+        paths = sorted(path for path in SCENES.rglob("*.json") if "1m" not in path.name and path.parent.name != "methods")
         self.assertGreaterEqual(len(paths), 4)
         for path in paths:
             with self.subTest(scene=path.name):

@@ -39,7 +39,7 @@ class Results(CliTest):
         for name in ("step", "time [s]", "dt [s]", "bound", "iterations", "predicted_density_error",
                      "predicted_density_error_max", "density_error", "density_error_max", "kinetic_energy [J]",
                      "potential_energy [J]", "momentum_x [kg m/s]", "max_speed [m/s]", "particles", "loose", "first_layer",
-                     "wetted_area [m^2]", "pieces", "largest_share", "nearest_p5 [dx]", "radius_of_gyration [m]", "out",
+                     "wetted_area [m^2]", "held", "pieces", "largest_share", "nearest_p5 [dx]", "radius_of_gyration [m]", "out",
                      "lost", "waits", "floor.force_z [N]", "floor.torque_x [N m]"):
             self.assertIn(name, rows[0])
         for k, row in enumerate(rows):

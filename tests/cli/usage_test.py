@@ -3,7 +3,7 @@ import re
 
 from sessile_cli import VERSION, CliTest, tiny, unittest
 
-COMMANDS = ("run", "check", "info", "models")
+COMMANDS = ("run", "compare", "check", "info", "models")
 
 
 class Help(CliTest):
@@ -16,6 +16,9 @@ class Help(CliTest):
 
     def test_every_command(self):
         options = {"run": ["SCENE", "--output DIR", "--set PATH=VALUE", "--until SECONDS", "--threads N", "--progress"],
+                   "compare": ["SCENE", "--methods LIST", "--output DIR", "--set PATH=VALUE", "--until SECONDS",
+                               "--threads N", "--progress", "--search-dt", "--search-until SECONDS",
+                               "--search-max SECONDS"],
                    "check": ["SCENE", "--set PATH=VALUE", "--json"], "info": [], "models": []}
         for command in COMMANDS:
             for flag in ("--help", "-h"):
@@ -44,7 +47,7 @@ class WrongUsage(CliTest):
         self.expect([], "A subcommand is required")
         self.expect(["--threads", "1"], "A subcommand is required")
         self.expect(["rnu", "s.json"], 'unknown command "rnu" (did you mean "run"?)')
-        self.expect(["simulate"], 'unknown command "simulate" (valid commands: run, check, info, models)')
+        self.expect(["simulate"], 'unknown command "simulate" (valid commands: run, compare, check, info, models)')
 
     def test_options(self):
         scene = self.write(tiny())

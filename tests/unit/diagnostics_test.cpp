@@ -191,6 +191,19 @@ TEST(Structure, MeasuresTheWettedArea) {
   EXPECT_NEAR(s.wetted_area, 0.2, 1e-12);
 }
 
+TEST(Structure, CountsWhatSolidsHold) {
+  Sample sample;
+  sample.wall = lattice(12, 12, 1, 0.1);
+  sample.position = lattice(2, 2, 5, 0.1, {0.1, 0.1, 0.2});  // a pillar on the wall, its top first: held
+  append(sample.position, lattice(2, 2, 1, 0.1, {0.1, 0.1, 0.1}));
+  append(sample.position, lattice(3, 3, 3, 0.1, {0.6, 0.6, 0.155}));  // hovers 1.55 dx above it: not held
+  append(sample.position, lattice(1, 1, 1, 0.1, {0.1, 0.9, 0.1}));    // alone on the wall: held
+  const Structure s = sample.measured();
+  EXPECT_EQ(s.pieces, 3);
+  EXPECT_EQ(s.first_layer, 5);
+  EXPECT_EQ(s.held, 25);
+}
+
 TEST(Structure, DescribesClustering) {
   Sample sample;
   for (int i = 0; i < 20; ++i) sample.position.push_back({static_cast<Real>(i), 0, 0});
@@ -212,7 +225,7 @@ TEST(Structure, AgreesWithBruteForceOnARandomCloud) {
   const AllPairs links(x, x, {}, 0.15, true), near(x, x, {}, 0.2, true), wall(x, sample.wall, {}, 0.2, false),
       touching(x, sample.wall, {}, 0.15, false);
 
-  std::int64_t loose = 0, first_layer = 0, pieces = 0;
+  std::int64_t loose = 0, first_layer = 0, pieces = 0, held = 0;
   std::size_t largest = 0;
   std::vector<bool> seen(n, false);
   for (std::size_t i = 0; i < n; ++i) {
@@ -223,10 +236,12 @@ TEST(Structure, AgreesWithBruteForceOnARandomCloud) {
     std::size_t size = 0;
     std::vector<std::size_t> open{i};
     seen[i] = true;
+    bool clings = false;
     while (!open.empty()) {
       const std::size_t a = open.back();
       open.pop_back();
       ++size;
+      clings = clings || !touching[a].empty();
       for (const std::int32_t j : links[a]) {
         const auto b = static_cast<std::size_t>(j);
         if (!seen[b]) open.push_back(b);
@@ -234,6 +249,7 @@ TEST(Structure, AgreesWithBruteForceOnARandomCloud) {
       }
     }
     largest = std::max(largest, size);
+    if (clings) held += static_cast<std::int64_t>(size);
   }
   const Structure s = sample.measured();
   EXPECT_GT(pieces, 20);  // the cloud is a test of something
@@ -241,6 +257,7 @@ TEST(Structure, AgreesWithBruteForceOnARandomCloud) {
   EXPECT_NEAR(s.largest_share, static_cast<double>(largest) / static_cast<double>(n), 1e-12);
   EXPECT_EQ(s.loose, loose);
   EXPECT_EQ(s.first_layer, first_layer);
+  EXPECT_EQ(s.held, held);
 }
 
 TEST(Diagnostics, AreTheSameBitsForAnyNumberOfThreads) {
@@ -255,9 +272,19 @@ TEST(Diagnostics, AreTheSameBitsForAnyNumberOfThreads) {
     const Motion m = motion(sample.position, sample.position, mass, 1, {1, 2, -9.81});
     const Extent e = extent(sample.position, mass);
     const Structure s = structure({sample.position, sample.wall, fluid.rows(), walls.rows(), {}, sample.spacing, 0.2});
-    return std::vector<double>{m.kinetic_energy,     m.potential_energy, m.momentum.x,    m.max_speed,
-                               e.radius_of_gyration, e.farthest,         s.largest_share, s.nearest_p5,
-                               s.wetted_area,        double(s.pieces),   double(s.loose), compression(mass).average};
+    return std::vector<double>{m.kinetic_energy,
+                               m.potential_energy,
+                               m.momentum.x,
+                               m.max_speed,
+                               e.radius_of_gyration,
+                               e.farthest,
+                               s.largest_share,
+                               s.nearest_p5,
+                               s.wetted_area,
+                               double(s.pieces),
+                               double(s.loose),
+                               double(s.held),
+                               compression(mass).average};
   };
   const int threads = omp_get_max_threads();
   const auto one = measured(1), two = measured(2), eight = measured(8);

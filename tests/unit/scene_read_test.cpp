@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "sessile/scene/describe.h"
+#include "sessile/scene/method.h"
 #include "sessile/scene/reference.h"
 #include "sessile/scene/spelling.h"
 #include "sessile/scene/traits.h"
@@ -137,13 +138,19 @@ TEST_F(SceneReading, ResolvesMeshesFromTheSceneFile) {
 }
 
 TEST(SceneFilesOfTheProject, AreSound) {
-  int count = 0;
+  int scenes = 0, methods = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(SESSILE_SCENES)) {
     if (entry.path().extension() != ".json") continue;
-    ++count;
-    EXPECT_NO_THROW(read_scene(entry.path())) << entry.path();
+    const bool is_method = entry.path().parent_path().filename() == "methods";
+    ++(is_method ? methods : scenes);
+    if (is_method) {
+      EXPECT_NO_THROW(read_method(entry.path())) << entry.path();
+    } else {
+      EXPECT_NO_THROW(read_scene(entry.path())) << entry.path();
+    }
   }
-  EXPECT_GE(count, 7);
+  EXPECT_GE(scenes, 7);
+  EXPECT_GE(methods, 3);
 }
 
 TEST(SceneReference, IsUpToDate) {

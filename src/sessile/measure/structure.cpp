@@ -94,9 +94,16 @@ void describe_nearest(Array<Real>& squares, double spacing, Structure& result) {
   result.nearest_median = std::sqrt(static_cast<double>(*middle)) / spacing;
 }
 
-void count_pieces(Sets& sets, std::size_t n, Structure& result) {
+void count_pieces(Sets& sets, const std::vector<unsigned char>& touches, Structure& result) {
+  const std::size_t n = touches.size();
   std::vector<std::int32_t> sizes(n, 0);
-  for (std::size_t i = 0; i < n; ++i) ++sizes[static_cast<std::size_t>(sets.root(static_cast<std::int32_t>(i)))];
+  std::vector<unsigned char> clings(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto root = static_cast<std::size_t>(sets.root(static_cast<std::int32_t>(i)));
+    ++sizes[root];
+    clings[root] |= touches[i];
+  }
+  for (std::size_t i = 0; i < n; ++i) result.held += clings[i] != 0 ? sizes[i] : 0;
   result.pieces = std::count_if(sizes.begin(), sizes.end(), [](std::int32_t size) { return size > 0; });
   result.largest_share = static_cast<double>(*std::max_element(sizes.begin(), sizes.end())) / static_cast<double>(n);
 }
@@ -109,7 +116,8 @@ Structure structure(const Cloud& cloud) {
   if (n == 0) return result;
 
   Sets sets(n);
-  Array<Real> nearest(n);  // squared distance [m^2]
+  Array<Real> nearest(n);                    // squared distance [m^2]
+  std::vector<unsigned char> touches(n, 0);  // whether it is of the first layer
   const auto link2 = static_cast<Real>(std::pow(link_distance * cloud.spacing, 2));
   const auto support2 = static_cast<Real>(std::pow(cloud.support_radius, 2));
 
@@ -138,7 +146,8 @@ Structure structure(const Cloud& cloud) {
       }
 
       part.loose += neighbors.size() <= loose_neighbors && walls.empty();
-      part.first_layer += squared_distances(cloud, i, cloud.wall_position, walls, distances) < link2;
+      touches[i] = squared_distances(cloud, i, cloud.wall_position, walls, distances) < link2;
+      part.first_layer += touches[i];
     }
   }
   for (const Part& part : parts) {
@@ -148,7 +157,7 @@ Structure structure(const Cloud& cloud) {
   }
 
   result.wetted_area = static_cast<double>(result.first_layer) * cloud.spacing * cloud.spacing;
-  count_pieces(sets, n, result);
+  count_pieces(sets, touches, result);
   describe_nearest(nearest, cloud.spacing, result);
   return result;
 }

@@ -41,8 +41,9 @@ struct Structure {
   std::int64_t loose = 0;        ///< particles with at most 4 fluid neighbours and no wall within h
   std::int64_t first_layer = 0;  ///< particles closer than 1.5 dx to a sample of a solid
   double wetted_area = 0;        ///< first-layer particles times dx^2 [m^2]
-  std::int64_t pieces = 0;       ///< sets of particles linked by distances under 1.5 dx
-  double largest_share = 0;      ///< particles of the largest piece over all particles
+  std::int64_t held = 0;     ///< particles of pieces that hold at least one of the first layer: what clings to solids
+  std::int64_t pieces = 0;   ///< sets of particles linked by distances under 1.5 dx
+  double largest_share = 0;  ///< particles of the largest piece over all particles
   // Distribution over the particles of the distance to the nearest one, over dx. Without one within h it counts as h.
   double nearest_min = 0;
   double nearest_p5 = 0;      ///< 5th percentile: one in twenty is closer

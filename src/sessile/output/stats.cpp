@@ -46,6 +46,7 @@ constexpr auto columns = std::to_array<StatsColumn<StatsRow>>({
     {"loose", "", [](const StatsRow& r) -> Cell { return r.measured.structure.loose; }},
     {"first_layer", "", [](const StatsRow& r) -> Cell { return r.measured.structure.first_layer; }},
     {"wetted_area", "m^2", [](const StatsRow& r) -> Cell { return r.measured.structure.wetted_area; }},
+    {"held", "", [](const StatsRow& r) -> Cell { return r.measured.structure.held; }},
     {"pieces", "", [](const StatsRow& r) -> Cell { return r.measured.structure.pieces; }},
     {"largest_share", "", [](const StatsRow& r) -> Cell { return r.measured.structure.largest_share; }},
     {"nearest_min", "dx", [](const StatsRow& r) -> Cell { return r.measured.structure.nearest_min; }},

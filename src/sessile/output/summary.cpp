@@ -1,52 +1,15 @@
 #include "sessile/output/summary.h"
 
-#include <fmt/format.h>
 #include <json/json.h>
 #include <sys/resource.h>
 
-#include <cmath>
 #include <memory>
 
 #include "sessile/output/file.h"
+#include "sessile/output/json_object.h"
 
 namespace sessile {
 namespace {
-
-/// Lines of one JSON object, in the order they are added; jsoncpp's own would sort them and print 0.1 with 17 digits.
-class Object {
- public:
-  explicit Object(std::size_t depth) : indent_(2 * depth, ' ') {}
-
-  Object& add(std::string_view key, double value) {
-    return raw(key, std::isfinite(value) ? fmt::format("{}", value) : "null");
-  }
-  Object& add(std::string_view key, std::int64_t value) { return raw(key, fmt::format("{}", value)); }
-  Object& add(std::string_view key, std::size_t value) { return raw(key, fmt::format("{}", value)); }
-  Object& add(std::string_view key, const std::string& text) {
-    return raw(key, Json::valueToQuotedString(text.c_str()));
-  }
-  Object& raw(std::string_view key, std::string_view json) {
-    text_ += fmt::format("{}{}  \"{}\": {}", text_.empty() ? "{\n" : ",\n", indent_, key, json);
-    return *this;
-  }
-  std::string text() const { return fmt::format("{}\n{}}}", text_, indent_); }
-
- private:
-  std::string indent_;
-  std::string text_;
-};
-
-std::string_view word(RunStatus status) {
-  switch (status) {
-    case RunStatus::done:
-      return "done";
-    case RunStatus::interrupted:
-      return "interrupted";
-    case RunStatus::failed:
-      return "failed";
-  }
-  return "";
-}
 
 bool is_json(const std::string& text) {
   Json::Value ignored;
@@ -56,18 +19,21 @@ bool is_json(const std::string& text) {
   return reader->parse(text.data(), text.data() + text.size(), &ignored, nullptr);
 }
 
-/// The text with all its lines but the first moved in, so that it reads well inside an object.
-std::string indented(std::string_view text) {
-  while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
-  std::string result;
-  for (const char c : text) {
-    result += c;
-    if (c == '\n') result += "  ";
-  }
-  return result;
-}
-
 }  // namespace
+
+std::string_view word(RunStatus status) {
+  switch (status) {
+    case RunStatus::done:
+      return "done";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::failed:
+      return "failed";
+    case RunStatus::stopped:
+      return "stopped";
+  }
+  return "";
+}
 
 std::size_t peak_memory() {
   rusage usage{};
@@ -81,7 +47,7 @@ std::string summary_json(const RunFacts& run, const SimulationFacts& simulation)
   const double per_step =
       totals.steps > 0 ? static_cast<double>(totals.iterations) / static_cast<double>(totals.steps) : 0;
 
-  Object wall_time(1);
+  JsonObject wall_time(1);
   wall_time.add("total", run.wall_time)
       .add("neighbors", stages.neighbors)
       .add("density", stages.density)
@@ -91,10 +57,10 @@ std::string summary_json(const RunFacts& run, const SimulationFacts& simulation)
       .add("output", run.output_time)
       .add("measures", run.measures_time)
       .add("writer_thread", run.writer_time);
-  Object memory(1);
+  JsonObject memory(1);
   memory.add("peak", peak_memory()).add("arrays", simulation.bytes);
 
-  Object energy(1);
+  JsonObject energy(1);
   energy.add("kinetic_at_start", totals.energy.start)
       .add("work_of_forces", totals.energy.forces)
       .add("work_of_pressure", totals.energy.pressure)
@@ -102,7 +68,7 @@ std::string summary_json(const RunFacts& run, const SimulationFacts& simulation)
       .add("out", totals.energy.out)
       .add("kinetic_at_end", totals.energy.kinetic());
 
-  Object summary(0);
+  JsonObject summary(0);
   summary.add("status", std::string(word(run.status)))
       .add("message", run.message)
       .add("version", run.version)

@@ -9,13 +9,16 @@
 
 namespace sessile {
 
-/// How a run ended.
-enum class RunStatus { done, interrupted, failed };
+/// How a run ended; stopped: by the program, before its end, for a reason of its own.
+enum class RunStatus { done, interrupted, failed, stopped };
+
+/// "done", "interrupted", "failed", "stopped".
+std::string_view word(RunStatus status);
 
 /// What only the program that runs a simulation knows.
 struct RunFacts {
   RunStatus status = RunStatus::done;
-  std::string message;       ///< what went wrong, when it failed
+  std::string message;       ///< what went wrong, when it failed; why it was stopped
   std::string version;       ///< of the program
   std::string scene_json;    ///< the resolved scene as JSON text
   double wall_time = 0;      ///< of the whole run [s]

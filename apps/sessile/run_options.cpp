@@ -1,0 +1,48 @@
+#include "run_options.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+namespace sessile::app {
+
+std::string finite_and_positive(const std::string& word) {
+  double value = 0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc::invalid_argument || rest != word.data() + word.size()) return {};  // no number: CLI11 says so
+  if (error != std::errc{} || !std::isfinite(value)) return word + " is not a finite number";
+  return value > 0 ? "" : "must be above 0 s, found " + word;
+}
+
+void add_run_options(CLI::App& command, RunOptions& options, const std::string& folder_help) {
+  command.add_option("scene", options.scene, "scene file")->required()->type_name("SCENE");
+  command.add_option("-o,--output", options.folder, folder_help)->type_name("DIR");
+  command.add_option("--set", options.overrides, "put a value over the scene's, e.g. time.fixed_dt=0.002")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--until", options.until, "end at this simulated time, in place of the scene's time.end")
+      ->type_name("SECONDS")
+      ->check(finite_and_positive, "");
+  command.add_option("--threads", options.threads, "threads to use (default: all)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--progress", options.progress, "how progress is shown")
+      ->check(CLI::IsMember({"auto", "plain", "json", "none"}))
+      ->capture_default_str();
+}
+
+void apply_run_options(RunOptions& options, const std::string& folder_suffix) {
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  if (options.until) options.overrides.push_back(fmt::format("time.end={:.17g}", *options.until));
+  if (options.folder.empty()) {
+    const std::string stem = std::filesystem::path(options.scene).stem().string();
+    options.folder = (std::filesystem::path("results") / (stem + folder_suffix)).string();
+  }
+}
+
+}  // namespace sessile::app

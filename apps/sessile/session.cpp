@@ -1,0 +1,114 @@
+#include "session.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <mutex>
+
+#include "prepare.h"
+#include "recorder.h"
+#include "sessile/scene/describe.h"
+#include "sessile/version.h"
+
+namespace sessile::app {
+namespace {
+
+// Set by the signal handler, which may touch nothing else.
+volatile std::sig_atomic_t stop_flag = 0;
+
+/// Says once what the user should know while it happens.
+class Warnings {
+ public:
+  void look(const Simulation& simulation, Progress& progress) {
+    const StepReport& last = simulation.last_step();
+    if (!last.overruled.empty() && !said_overruled_) {
+      said_overruled_ = true;
+      progress.warn(fmt::format("at {:.4g} s the step of {:g} s ({}) exceeds the {} bound", simulation.time(), last.dt,
+                                last.bound, last.overruled));
+    }
+    if (!last.converged && !said_unconverged_) {
+      said_unconverged_ = true;
+      progress.warn(
+          fmt::format("at {:.4g} s the pressure solve ended at its {} iterations with an average density error "
+                      "of {:.3g} %",
+                      simulation.time(), last.iterations, 100 * last.predicted_error));
+    }
+  }
+
+ private:
+  bool said_overruled_ = false, said_unconverged_ = false;
+};
+
+using Clock = std::chrono::steady_clock;
+
+/// Ctrl-C ends the run after the step at hand; a second one ends the program at once.
+void stop_on_signals() {
+  const auto ask = [](int signal) {
+    stop_flag = 1;
+    std::signal(signal, SIG_DFL);
+  };
+  std::signal(SIGINT, ask);
+  std::signal(SIGTERM, ask);
+  std::signal(SIGPIPE, [](int) { stop_flag = 1; });  // whoever read along has gone, as with Ctrl-C
+  std::signal(SIGXFSZ, SIG_IGN);                     // a file size limit then is an error of the write, with a sentence
+}
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+}  // namespace
+
+bool stop_asked() { return stop_flag != 0; }
+
+SessionResult run_session(const ResolvedScene& resolved, const SessionOptions& options, const StepWatch& watch) {
+  const auto start = Clock::now();
+  SessionResult result;
+  Simulation simulation = set_up(resolved, options.scene_file);
+  // Only now: until here nothing is written, and a signal may end the program at once. And only once: a signal between
+  // two sessions must not be forgotten.
+  static std::once_flag signals;
+  std::call_once(signals, stop_on_signals);
+  Recorder recorder(options.folder, simulation);
+  Progress progress(options.progress, options.name);
+  Warnings warnings;
+  RunFacts facts;
+  facts.version = version();
+  facts.scene_json = to_json(resolved.scene);
+  try {
+    while (!simulation.finished() && !stop_asked() && result.message.empty()) {
+      const auto before = Clock::now();
+      simulation.step();
+      result.stepping += since(before);
+      recorder.record(simulation);
+      warnings.look(simulation, progress);
+      progress.update(simulation);
+      if (watch) result.message = watch(simulation);
+    }
+  } catch (const std::exception& e) {
+    // What has been written stays good; the summary says how it ended, if the disk still takes it.
+    result.error = std::current_exception();
+    result.message = e.what();
+    facts.status = result.status = RunStatus::failed;
+    facts.message = result.message;
+    facts.wall_time = since(start);
+    try {
+      recorder.finish(simulation, facts);
+    } catch (const std::exception&) {
+      // The first error is the one to report.
+    }
+  }
+  if (!result.error) {
+    const RunStatus early = stop_asked() ? RunStatus::interrupted : RunStatus::done;
+    facts.status = result.status = result.message.empty() ? early : RunStatus::stopped;
+    facts.message = result.message;
+    progress.finish(simulation);
+    facts.wall_time = since(start);
+    recorder.finish(simulation, facts);
+  }
+  result.wall = since(start);
+  result.frames = recorder.frames();
+  result.facts = simulation_facts(simulation);
+  return result;
+}
+
+}  // namespace sessile::app
