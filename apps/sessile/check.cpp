@@ -19,8 +19,7 @@ std::string derived(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   double tension = 0;
   for (const Force& force : scene.forces) {
-    tension += std::visit(
-        [&](const auto& model) { return model.tension(scene.fluid.rest_density, scene.support_radius()); }, force);
+    tension += std::visit([&](const auto& model) { return model.tension(simulation.units()); }, force);
   }
   std::string text = "\nderived\n";
   text += fmt::format("  particles at the start      {}\n", simulation.particles().size());

@@ -261,8 +261,7 @@ void Simulation::let_in_new_layers() {
 double Simulation::tension() const {
   double sum = 0;
   for (const Force& force : scene_.forces) {
-    sum +=
-        std::visit([&](const auto& model) { return model.tension(units_.rest_density, units_.support_radius); }, force);
+    sum += std::visit([&](const auto& model) { return model.tension(units_); }, force);
   }
   return sum;
 }

@@ -85,7 +85,7 @@ class Models(CliTest):
 
     GROUPS = {
         "Pressure solvers (pressure)": ["iisph", "pcisph", "wcsph", "dfsph"],
-        "Forces (forces[])": ["surface_feature"],
+        "Forces (forces[])": ["surface_feature", "akinci2013", "csf", "becker2007", "tartakovsky2005", "he2014"],
         "Shapes (shape of a body, an emitter or a solid)":
             ["box", "sphere", "cylinder", "mesh", "rectangle", "disc", "plate", "container"],
     }

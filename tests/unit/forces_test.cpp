@@ -130,8 +130,8 @@ TEST(SurfaceFeature, AdhesionForceIsThePrintedOne) {
 
 TEST(SurfaceFeature, MacroscopicTensionIsTheFormula) {
   // docs/model.md: both tabled strengths give 119 N/m at dx = 0.1 m.
-  EXPECT_NEAR((SurfaceFeature{7.4, 1, 500, Direction::displacement}.tension(1000, 0.2)), 119, 0.5);
-  EXPECT_NEAR((SurfaceFeature{1, 1, 60, Direction::unit}.tension(1000, 0.2)), 119, 0.5);
+  EXPECT_NEAR((SurfaceFeature{7.4, 1, 500, Direction::displacement}.tension({0.1, 0.2, 1000})), 119, 0.5);
+  EXPECT_NEAR((SurfaceFeature{1, 1, 60, Direction::unit}.tension({0.1, 0.2, 1000})), 119, 0.5);
 }
 
 TEST(Viscosity, ConservesMomentumAndSlowsDown) {

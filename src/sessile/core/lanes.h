@@ -31,6 +31,7 @@ concept NeighborIndex = std::same_as<J, int> || std::same_as<J, IndexLanes>;
 inline Real select(bool condition, Real a, Real b) { return condition ? a : b; }
 inline Real max(Real a, Real b) { return a > b ? a : b; }
 inline Real min(Real a, Real b) { return a < b ? a : b; }
+using xsimd::cos;
 using xsimd::max;
 using xsimd::min;
 using xsimd::select;

@@ -1,9 +1,8 @@
 #include "sessile/forces/surface_feature.h"
 
-#include "sessile/core/parallel.h"
+#include "sessile/forces/pair_laws.h"
 #include "sessile/kernels/adhesion.h"
 #include "sessile/kernels/cohesion.h"
-#include "sessile/neighbors/step_view.h"
 #include "sessile/walls/reaction.h"
 
 namespace sessile {
@@ -12,7 +11,7 @@ namespace {
 /// e_ij of (14) and (22): the displacement [m], or its unit vector; 0 for coincident particles.
 template <class T>
 Vec3<T> pair_direction(Direction reading, const Separation<T>& pair) {
-  return reading == Direction::unit ? pair.inverse_r * pair.d : pair.d;
+  return reading == Direction::unit ? unit_vector(pair) : pair.d;
 }
 
 /// -K_ij ( alpha m_j d(r) e_ij + beta (n_i - n_j) ), K_ij = 2 rho0^2/(rho_i^2 + rho_j^2)   (14, 18, 20, 21)
@@ -32,9 +31,8 @@ struct TensionLaw {
     const T mj = s.m[j], rho_j = s.rho[j];
     const T K = T(Real(2)) / (T(s.rho[i] * s.rho[i]) + rho_j * rho_j);
     const T mean_mass = T(Real(0.5)) * (T(Real(1)) + mj * T(1 / s.m[i]));
-    const T area = select(squared_length(pair.d) > T(Real(0)), T(beta) * mean_mass, T(Real(0)));
     return -K * (T(alpha_rho0) * mj * cohesion.value(pair.r) * pair_direction(reading, pair) +
-                 area * (spread<T>(s.normal[i]) - s.normal[j]));
+                 T(beta) * mean_mass * normal_difference(s, i, j, pair));
   }
 };
 
@@ -53,18 +51,6 @@ struct AdhesionLaw {
   }
 };
 
-struct SurfaceFeatureKernel {
-  TensionLaw tension;
-  AdhesionLaw adhesion;
-  Array3& a;
-
-  void operator()(int i) const {
-    const auto place = static_cast<std::size_t>(i);
-    a.set(place, a[place] + tension.s.near.sum(i, [&](auto j) { return tension(i, j); }) +
-                     tension.s.near_walls.sum(i, [&](auto b) { return adhesion(i, b); }));
-  }
-};
-
 AdhesionLaw adhesion_law(const SurfaceFeature& model, const StepView& s) {
   return {s, AdhesionSpline(s.units.support_radius, s.units.spacing),
           static_cast<Real>(model.adhesion * s.units.rest_density), model.direction};
@@ -76,15 +62,16 @@ void SurfaceFeature::add_acceleration(const StepView& s, Array3& acceleration) c
   const TensionLaw tension_law{s, CohesionSpline(s.units.support_radius, s.units.spacing),
                                static_cast<Real>(cohesion * s.units.rest_density), static_cast<Real>(area_minimisation),
                                direction};
-  for_each(s.n, SurfaceFeatureKernel{tension_law, adhesion_law(*this, s), acceleration});
+  add_sums(s, tension_law, adhesion_law(*this, s), acceleration);
 }
 
 void SurfaceFeature::add_reaction(const StepView& s, const Walls& walls, std::span<SolidForce> forces) const {
   sessile::add_reaction(s, walls, adhesion_law(*this, s), forces);
 }
 
-double SurfaceFeature::tension(double rest_density, double h) const {
-  const double unit = cohesion * rest_density * rest_density * h * h;
+double SurfaceFeature::tension(const Units& units) const {
+  const double h = units.support_radius;
+  const double unit = cohesion * units.rest_density * units.rest_density * h * h;
   return direction == Direction::unit ? 21.0 / 7040 * unit : 271.0 / 135168 * unit * h;
 }
 

@@ -12,6 +12,7 @@ namespace sessile {
 
 struct SolidForce;
 struct StepView;
+struct Units;
 struct Walls;
 
 /// How (14) and (22) take x_ij: as printed, or divided by its length as in Akinci 2013.
@@ -55,7 +56,7 @@ struct SurfaceFeature {
 
   /// Macroscopic surface tension [N/m] of the cohesion term for a uniform pair distribution:
   /// (271/135168) alpha rho0^2 h^3 (displacement), (21/7040) alpha rho0^2 h^2 (unit).
-  double tension(double rest_density, double support_radius) const;
+  double tension(const Units& units) const;
 };
 
 }  // namespace sessile

@@ -1,7 +1,6 @@
 #include "sessile/forces/viscosity.h"
 
-#include "sessile/core/parallel.h"
-#include "sessile/neighbors/step_view.h"
+#include "sessile/forces/pair_laws.h"
 #include "sessile/walls/reaction.h"
 
 namespace sessile {
@@ -46,24 +45,12 @@ struct WallLaw {
   }
 };
 
-struct ViscosityKernel {
-  FluidLaw fluid;
-  WallLaw wall;
-  Array3& a;
-
-  void operator()(int i) const {
-    const auto place = static_cast<std::size_t>(i);
-    a.set(place, a[place] + fluid.s.near.sum(i, [&](auto j) { return fluid(i, j); }) +
-                     fluid.s.near_walls.sum(i, [&](auto b) { return wall(i, b); }));
-  }
-};
-
 }  // namespace
 
 void add_viscosity(const StepView& view, double viscosity, Array3& acceleration) {
   const MorrisFactor factor(view);
   const auto nu = static_cast<Real>(viscosity / view.units.rest_density);
-  for_each(view.n, ViscosityKernel{{view, nu, factor}, {view, factor}, acceleration});
+  add_sums(view, FluidLaw{view, nu, factor}, WallLaw{view, factor}, acceleration);
 }
 
 void add_viscosity_reaction(const StepView& view, const Walls& walls, std::span<SolidForce> forces) {

@@ -45,6 +45,19 @@ struct CubicSpline {
     return T(gradient_scale) * select(q <= T(Real(0.5)), inner, outer);
   }
 
+  /// dx^3 (W'' + 2 W'/r) [1/m^2]; 0 at h/2, negative below.
+  template <class T>
+  T laplacian(const Separation<T>& pair) const {
+    const T q = pair.r * T(inverse_h);
+    const T rest = max(T(Real(1)) - q, T(Real(0)));
+    const T inner = T(Real(72)) * q - T(Real(36));
+    const T outer = T(Real(12)) * rest * (T(Real(2)) - T(1 / inverse_h) * pair.inverse_r);
+    return T(gradient_scale) * select(q <= T(Real(0.5)), inner, outer);
+  }
+
+  /// dx^3 times the Laplacian at r = 0 [1/m^2].
+  Real laplacian_at_zero() const { return -36 * gradient_scale; }
+
   /// dx^3 grad_i W(x_i - x_j) [1/m].
   template <class T>
   Vec3<T> gradient(const Separation<T>& pair) const {
