@@ -107,9 +107,10 @@ std::vector<std::string> misplaced(const Array3& points, const std::vector<std::
   return {faults.begin(), faults.end()};
 }
 
-/// Greatest speed [m/s] that the liquid can be expected to reach: that of the start, of the fall from its highest place
-/// to the lowest boundary particle, and of a film of thickness dx that its tension draws in (Taylor, Culick).
-///   sqrt( v^2 + 2 g H + 2 sigma/(rho0 dx) )
+/// Greatest speed [m/s] that the liquid can be expected to reach, or to be pressed as if it had: that of the start, of
+/// the fall from its highest place to the lowest boundary particle, and of the pressure 8 sigma/h that cohesion over a
+/// support radius h puts a liquid under (8.23 for the cohesion spline and unit vectors, by the integrals).
+///   sqrt( v^2 + 2 g H + 16 sigma/(rho0 h) )
 double expected_speed(const Scene& scene, const Array3& liquid, const Walls& walls, double start_speed,
                       double tension) {
   const double g = length(scene.gravity);
@@ -124,7 +125,8 @@ double expected_speed(const Scene& scene, const Array3& liquid, const Walls& wal
     for (std::size_t k = 0; k < walls.size(); ++k) lowest = std::min(lowest, height(walls.position[k]));
     fall = std::max(0.0, highest - lowest);
   }
-  return std::sqrt(start_speed * start_speed + 2 * g * fall + 2 * tension / (scene.fluid.rest_density * scene.spacing));
+  return std::sqrt(start_speed * start_speed + 2 * g * fall +
+                   16 * tension / (scene.fluid.rest_density * scene.support_radius()));
 }
 
 }  // namespace

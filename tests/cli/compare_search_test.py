@@ -35,6 +35,10 @@ class Search(CompareTest):
                              ("largest fixed", True, method["largest_sound_dt_s"]))
             self.assertIn(f"{1e3 * method['largest_sound_dt_s']:g} ms", self.markdown())
         self.assertEqual([r["step"] for r in self.rows()], ["adaptive", "largest fixed"] * 2)
+        fastest = self.markdown().split("## Fastest sound run of each method")[1].split("\n## ")[0]
+        lines = [line for line in fastest.splitlines() if line.startswith(("| nothing |", "| under\\_score |"))]
+        self.assertEqual(len(lines), 2, fastest)
+        self.assertTrue(lines[0].endswith("| 1.00 |"), lines[0])
         before = self.report()
         out, _ = self.compare("nothing,under_score", "--search-dt", "--search-max", "0.1", scene=tiny(**self.SCENE))
         self.assertEqual(len(re.findall("already", out)), out.count("\n") - 1)

@@ -215,7 +215,7 @@ TEST(Wcsph, SpeedOfSoundFollowsFromFallStartAndTension) {
   const double sigma = 271.0 / 135168 * 7.4 * 1e6 * 0.008;
   const Simulation simulation(scene);
   const double c = *std::get<Wcsph>(simulation.scene().pressure).sound_speed;
-  EXPECT_NEAR(c, 10 * std::sqrt(9 + 2 * 9.81 * 2.15 + 2 * sigma / 100), 1e-3);
+  EXPECT_NEAR(c, 10 * std::sqrt(9 + 2 * 9.81 * 2.15 + 16 * sigma / 200), 1e-3);
 
   scene.pressure = Wcsph{50.0, 7};
   Simulation given(scene);

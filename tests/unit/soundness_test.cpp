@@ -45,18 +45,46 @@ TEST(Soundness, EndsWithTheFirstLoss) {
   EXPECT_EQ(s.verdict().reason, "a particle has passed through a solid");
 }
 
-TEST(Soundness, EndsWhenPressureDrivesTheLiquid) {
-  // Against the greatest energy so far, 50 J, though the liquid has slowed down to 10 J at step 90.
+TEST(Soundness, JudgesTheGreatestWorkOfPressureAtTheEnd) {
+  // Against the greatest energy of the run, 50 J at step 50, though the work is done while there is little.
   const auto work = [](double joules) {
-    return judged([=](int step, SoundnessState& state) { state.pressure_work = step >= 90 ? joules : -1; });
+    return judged([=](int step, SoundnessState& state) { state.pressure_work = step == 8 ? joules : -1; });
   };
   EXPECT_TRUE(work(0.49).verdict().sound);
   EXPECT_NEAR(work(0.49).pressure_work_share(), 0.0098, 1e-12);
   const Verdict verdict = work(0.51).verdict();
   EXPECT_FALSE(verdict.sound);
-  EXPECT_NEAR(verdict.time, 0.090, 1e-12);
+  EXPECT_NEAR(verdict.time, 0.008, 1e-12);
   EXPECT_TRUE(has(verdict.reason, "pressure has put 0.51 J into the liquid, 1.02 % of the greatest kinetic energy"));
   EXPECT_TRUE(has(verdict.reason, "the limit is 1 %"));
+}
+
+TEST(Soundness, EndsWhenPressureRunsAway) {
+  Soundness s;
+  for (int step = 1; step <= 2; ++step) {
+    SoundnessState state;
+    state.time = step;
+    state.steps = step;
+    state.kinetic_energy = 50;
+    state.pressure_work = step == 1 ? 24 : 26;
+    s.look(state);
+    EXPECT_EQ(s.verdict().sound, step == 1);
+  }
+  EXPECT_TRUE(has(s.verdict().reason, "the limit is 50 %"));
+}
+
+TEST(Soundness, EndsWhenTooManySolvesMissTheirError) {
+  Soundness s;
+  for (int step = 1; step <= 60; ++step) {
+    SoundnessState state;
+    state.time = step;
+    state.steps = step;
+    state.kinetic_energy = 50;
+    state.unconverged_solves = step >= 10 ? 6 : 0;
+    s.look(state);
+    EXPECT_EQ(s.verdict().sound, step < 50);
+  }
+  EXPECT_EQ(s.verdict().reason, "6 of 50 pressure solves ended above their error, 12 %; the limit is 10 %");
 }
 
 TEST(Soundness, JudgesTheMeanDensityErrorAtTheEnd) {
@@ -103,8 +131,10 @@ TEST(Soundness, LimitsAreParameters) {
   limits.density_error = 1e-4;
   EXPECT_FALSE(judged([](int, SoundnessState&) {}, limits).verdict().sound);
   limits = {};
-  limits.pressure_work = -1;
-  EXPECT_TRUE(judged([](int, SoundnessState& state) { state.pressure_work = -60; }, limits).verdict().sound);
+  limits.pressure_work = 0.4;
+  const auto work = [](int step, SoundnessState& state) { state.pressure_work = step == 50 ? 15 : 0; };
+  EXPECT_TRUE(judged(work, limits).verdict().sound);
+  EXPECT_FALSE(judged(work).verdict().sound);
 }
 
 TEST(Soundness, ReadsASimulation) {

@@ -94,6 +94,19 @@ std::vector<Row> rows_of(const Comparison& comparison) {
   return rows;
 }
 
+std::vector<Row> fastest_sound(const Comparison& comparison) {
+  std::vector<Row> fastest;
+  for (const Row& row : rows_of(comparison)) {
+    if (!row.run->sound || row.run->status != "done" || row.run->time <= 0) continue;
+    if (fastest.empty() || fastest.back().method != row.method) {
+      fastest.push_back(row);
+    } else if (row.run->wall_per_second() < fastest.back().run->wall_per_second()) {
+      fastest.back() = row;
+    }
+  }
+  return fastest;
+}
+
 double factor_to_first(const Comparison& comparison, const RunRecord& run) {
   if (comparison.methods.empty() || !comparison.methods[0].run) return 0;
   const double first = comparison.methods[0].run->wall_per_second();

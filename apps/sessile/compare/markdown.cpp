@@ -123,6 +123,23 @@ std::string runs_table(const Comparison& comparison) {
   return text + "\n";
 }
 
+std::string fastest_table(const Comparison& comparison) {
+  const std::vector<Row> rows = fastest_sound(comparison);
+  if (rows.empty()) return {};
+  const Row& first = rows.front();
+  std::string text =
+      fmt::format("## Fastest sound run of each method\n\n`speed` is over that of {}.\n\n", cell(first.method->name));
+  text += table_head(
+      {"method", "step", "mean dt", "iterations a step", "density error", "time per simulated s", "speed"}, 2);
+  for (const Row& row : rows) {
+    text += table_line({cell(row.method->name), row.step, milliseconds(row.run->dt_mean),
+                        fmt::format("{:.1f}", row.run->iterations_per_step), percent(row.run->density_error),
+                        seconds(row.run->wall_per_second()),
+                        fmt::format("{:.2f}", first.run->wall_per_second() / row.run->wall_per_second())});
+  }
+  return text + "\n";
+}
+
 std::string outcome_table(const Comparison& comparison) {
   std::vector<Row> rows;
   for (const Row& row : rows_of(comparison)) {
@@ -194,7 +211,8 @@ std::string plots_section(const Comparison& comparison) {
 }  // namespace
 
 std::string comparison_markdown(const Comparison& comparison) {
-  std::string text = head(comparison) + runs_table(comparison) + outcome_table(comparison) + search_tables(comparison);
+  std::string text = head(comparison) + runs_table(comparison) + fastest_table(comparison) + outcome_table(comparison) +
+                     search_tables(comparison);
   return text + plots_section(comparison);
 }
 

@@ -35,32 +35,45 @@ void Soundness::look(const SoundnessState& state) {
   error_sum_ += state.density_error;
   greatest_error_ = std::max(greatest_error_, state.density_error);
   greatest_energy_ = std::max(greatest_energy_, state.kinetic_energy);
-  if (greatest_energy_ > 0) greatest_share_ = std::max(greatest_share_, state.pressure_work / greatest_energy_);
+  if (state.pressure_work > greatest_work_) {
+    greatest_work_ = state.pressure_work;
+    time_of_greatest_work_ = state.time;
+  }
   if (state.lost > 0) {
     judge(state.time, fmt::format("{} passed through a solid", state.lost == 1 ? "a particle has" : "particles have"));
   }
-  if (state.pressure_work > limits_.pressure_work * greatest_energy_) {
-    judge(state.time,
-          fmt::format("pressure has put {:.3g} J into the liquid, {:.3g} % of the greatest kinetic energy so far "
-                      "({:.3g} J); the limit is {:g} %",
-                      state.pressure_work, 100 * state.pressure_work / greatest_energy_, greatest_energy_,
-                      100 * limits_.pressure_work));
-  }
+  judge_pressure_work(limits_.runaway);
+  constexpr std::int64_t enough = 50;
+  if (state.steps >= enough) judge_solves(limits_.hopeless);
 }
 
 void Soundness::fail(double time, const std::string& message) { judge(time, message); }
 
 void Soundness::finish() {
+  judge_pressure_work(limits_.pressure_work);
   if (density_error() > limits_.density_error) {
     judge(last_.time, fmt::format("the mean density error is {:.4g} %; the limit is {:g} %", 100 * density_error(),
                                   100 * limits_.density_error));
   }
-  if (unconverged_share() > limits_.unconverged) {
-    judge(last_.time,
-          fmt::format("{} of {} pressure solves ended above their error, {:.3g} %; the limit is {:g} %",
-                      last_.unconverged_solves, last_.steps, 100 * unconverged_share(), 100 * limits_.unconverged));
-  }
+  judge_solves(limits_.unconverged);
 }
+
+void Soundness::judge_pressure_work(double limit) {
+  if (greatest_work_ <= limit * greatest_energy_) return;
+  judge(
+      time_of_greatest_work_,
+      fmt::format("pressure has put {:.3g} J into the liquid, {:.3g} % of the greatest kinetic energy ({:.3g} J); the "
+                  "limit is {:g} %",
+                  greatest_work_, 100 * pressure_work_share(), greatest_energy_, 100 * limit));
+}
+
+void Soundness::judge_solves(double limit) {
+  if (unconverged_share() <= limit) return;
+  judge(last_.time, fmt::format("{} of {} pressure solves ended above their error, {:.3g} %; the limit is {:g} %",
+                                last_.unconverged_solves, last_.steps, 100 * unconverged_share(), 100 * limit));
+}
+
+double Soundness::pressure_work_share() const { return greatest_energy_ > 0 ? greatest_work_ / greatest_energy_ : 0; }
 
 double Soundness::density_error() const {
   return error_sum_ / static_cast<double>(std::max<std::int64_t>(1, last_.steps));

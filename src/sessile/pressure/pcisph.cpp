@@ -49,7 +49,8 @@ PressureResult solve(const Pcisph& method, const StepView& s, const Array3& pred
     });
     after.x = view(scratch.predicted_position);
     compute_density(after, scratch.advected);
-    measure_error(s.n, [&](int i) { return max(scratch.advected[static_cast<std::size_t>(i)] - 1, Real(0)); }, result);
+    measure_error(
+        s.n, [&](int i) { return max(scratch.advected[static_cast<std::size_t>(i)] - 1, Real(0)); }, result);
     ++result.iterations;
     result.converged = result.error <= method.error && result.iterations >= method.min_iterations;
     if (result.converged || result.iterations >= method.max_iterations) return result;

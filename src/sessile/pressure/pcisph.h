@@ -17,7 +17,8 @@ struct Pcisph {
   int max_iterations = 200;
 
   static constexpr std::string_view name = "pcisph";
-  static constexpr std::string_view summary = "predictive-corrective incompressible SPH (Solenthaler and Pajarola 2009)";
+  static constexpr std::string_view summary =
+      "predictive-corrective incompressible SPH (Solenthaler and Pajarola 2009)";
   static constexpr bool frees_velocities_of_divergence = false;
   static constexpr auto fields() {
     using T = Pcisph;

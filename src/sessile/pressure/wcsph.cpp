@@ -17,7 +17,8 @@ PressureResult solve(const Wcsph& method, const StepView& s, const Array3&, doub
   });
   pressure_acceleration(s, pressure, scratch.stress, scratch.acceleration);
   PressureResult result{1, true, 0, 0};
-  measure_error(s.n, [&](int i) { return max(s.rho[i] - 1, Real(0)); }, result);
+  measure_error(
+      s.n, [&](int i) { return max(s.rho[i] - 1, Real(0)); }, result);
   return result;
 }
 

@@ -22,8 +22,9 @@ struct Wcsph {
   static constexpr auto fields() {
     using T = Wcsph;
     return std::tuple{
-        derived(field(&T::sound_speed, "sound_speed", "m/s", positive, "c_s, speed of sound; dt <= cfl dx/(c_s + |v|max)"),
-                "10 sqrt(v^2 + 2 g H + 2 sigma/(rho0 dx)) of the start"),
+        derived(
+            field(&T::sound_speed, "sound_speed", "m/s", positive, "c_s, speed of sound; dt <= cfl dx/(c_s + |v|max)"),
+            "10 sqrt(v^2 + 2 g H + 16 sigma/(rho0 h)) of the start"),
         field(&T::gamma, "gamma", "", at_least(1), "exponent of the equation of state"),
     };
   }
