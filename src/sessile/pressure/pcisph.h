@@ -14,7 +14,7 @@ namespace sessile {
 struct Pcisph {
   double error = 1e-4;
   int min_iterations = 3;
-  int max_iterations = 200;
+  int max_iterations = 100;
 
   static constexpr std::string_view name = "pcisph";
   static constexpr std::string_view summary =

@@ -1,5 +1,6 @@
 #include "sessile/pressure/solve.h"
 
+#include <limits>
 #include <type_traits>
 #include <variant>
 
@@ -39,6 +40,18 @@ double sound_speed(const Pressure& method) {
           return chosen.sound_speed.value_or(0);
         } else {
           return 0.0;
+        }
+      },
+      method);
+}
+
+int most_iterations(const Pressure& method) {
+  return std::visit(
+      [](const auto& chosen) {
+        if constexpr (requires { chosen.max_iterations; }) {
+          return chosen.max_iterations;
+        } else {
+          return std::numeric_limits<int>::max();
         }
       },
       method);

@@ -1,5 +1,6 @@
 #include "sessile/time/time_step.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -45,6 +46,11 @@ TimeStep choose_time_step(const TimeSettings& settings, const MotionScale& scale
   Bound least = stable;
   if (settings.dt_max < least.dt) least = {"dt_max", settings.dt_max};
   if (last > 0 && last * settings.growth < least.dt) least = {"growth", last * settings.growth};
+  // Iterations grow with the step: a solve that needs many of them is near the end of what its solver can do.
+  if (scale.solver_effort > settings.solver_effort) {
+    const double shorter = last * std::max(0.5, std::sqrt(settings.solver_effort / scale.solver_effort));
+    if (shorter < least.dt) least = {"solver", shorter};
+  }
   if (least.dt >= settings.dt_min) return {least.dt, least.name, ""};
   return {settings.dt_min, "dt_min", settings.dt_min > stable.dt ? stable.name : ""};
 }
