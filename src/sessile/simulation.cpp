@@ -111,7 +111,7 @@ double Simulation::next_time_step() {
     scale.viscosity = std::max(scale.viscosity, static_cast<double>(nu) * units_.rest_density);
   }
   scale.tension = tension();
-  scale.solver_effort = static_cast<double>(last_step_.iterations) / most_iterations(scene_.pressure);
+  scale.solver_effort = effort(scene_.pressure, last_step_.iterations);
   const TimeStep chosen = choose_time_step(scene_.time, scale, last_step_.dt);
   last_step_.dt = chosen.dt;
   last_step_.bound = chosen.bound;

@@ -28,10 +28,11 @@ struct StageTimes {
 
 /// What the last step did.
 struct StepReport {
-  double dt = 0;               ///< [s]
-  std::string_view bound;      ///< what set dt: cfl, sound, solver, force, viscosity, capillary, growth, dt_max, dt_min, fixed
-  std::string_view overruled;  ///< the stability bound that a fixed dt or dt_min exceeds, or ""
-  int iterations = 0;          ///< of the pressure solve
+  double dt = 0;  ///< [s]
+  std::string_view
+      bound;  ///< what set dt: cfl, sound, solver, force, viscosity, capillary, growth, dt_max, dt_min, fixed
+  std::string_view overruled;      ///< the stability bound that a fixed dt or dt_min exceeds, or ""
+  int iterations = 0;              ///< of the pressure solve
   int divergence_iterations = 0;   ///< of the solve that frees the velocities of divergence, if the solver has one
   bool converged = true;           ///< whether every solve reached its error
   double predicted_error = 0;      ///< average compression over rest density that the solver predicts

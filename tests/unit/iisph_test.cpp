@@ -117,6 +117,25 @@ TEST(Iisph, TakesTheCompressionOutAndReportsWhatIsLeft) {
   EXPECT_NEAR(left / static_cast<double>(change.size()), result.error, 1e-7);
 }
 
+TEST(Iisph, MomentumTakesFewerIterationsToTheSamePressures) {
+  test::Cloud cloud = test::lattice(8, 0.05, true);
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) cloud.particles.velocity.set(i, {0, 0, Real(-1)});
+  cloud.look_around();
+  const auto solved = [&](double momentum, int& iterations) {
+    Array<Real> pressure(cloud.particles.size(), Real(0));
+    PressureScratch scratch;
+    Iisph method;
+    method.error = 1e-6;
+    method.momentum = momentum;
+    iterations = solve(method, cloud.view(), cloud.particles.velocity, dt, pressure, scratch).iterations;
+    return scratch.acceleration;
+  };
+  int printed = 0, with_momentum = 0;
+  const Array3 a = solved(0, printed), b = solved(0.3, with_momentum);
+  EXPECT_LT(with_momentum, 0.8 * printed);
+  EXPECT_LT(test::difference(a, b), 0.02);
+}
+
 TEST(Iisph, SaysSoWhenItStopsShort) {
   test::Cloud cloud = test::lattice(8, 0.05, true);
   for (std::size_t i = 0; i < cloud.particles.size(); ++i) cloud.particles.velocity.set(i, {0, 0, Real(-5)});

@@ -40,6 +40,23 @@ TEST(TimeStep, EachBoundIsItsFormula) {
   EXPECT_DOUBLE_EQ(choose_time_step(wide(), viscous, 0).dt, 0.125 * 1000 * 0.01 / 20);
 }
 
+TEST(TimeStep, FollowsTheSolversEffort) {
+  TimeSettings settings = wide();
+  settings.dt_max = 8e-3;
+  MotionScale scale;
+  scale.spacing = 0.1;
+  scale.rest_density = 1000;
+  scale.solver_effort = 1;  // as much as it may take
+  EXPECT_EQ(choose_time_step(settings, scale, 4e-3).bound, "growth");
+  scale.solver_effort = 1.6;
+  EXPECT_EQ(choose_time_step(settings, scale, 4e-3).bound, "solver");
+  EXPECT_DOUBLE_EQ(choose_time_step(settings, scale, 4e-3).dt, 4e-3 / std::sqrt(1.6));
+  scale.solver_effort = 10;  // at most by half
+  EXPECT_DOUBLE_EQ(choose_time_step(settings, scale, 4e-3).dt, 2e-3);
+  settings.fixed_dt = 4e-3;
+  EXPECT_EQ(choose_time_step(settings, scale, 4e-3).dt, 4e-3);
+}
+
 TEST(TimeStep, CapillaryBoundIsTheTabledOneForWater) {
   // docs/model.md: dx = 1 mm 1.48 ms, 0.25 mm 0.185 ms, 0.1 mm 47 us, before the factor.
   TimeSettings settings = wide();

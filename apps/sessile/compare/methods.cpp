@@ -40,6 +40,13 @@ std::vector<std::string> split(const std::string& list) {
   return words;
 }
 
+/// The file as seen from where the program runs, when it lies below.
+fs::path from_here(const fs::path& file) {
+  std::error_code error;
+  const fs::path relative = fs::relative(file, error);
+  return error || relative.empty() || *relative.begin() == ".." ? file : relative;
+}
+
 bool is_path(const std::string& word) { return word.find('/') != std::string::npos || word.ends_with(".json"); }
 
 /// Why a name cannot be that of a folder of results; "" when it can.
@@ -107,7 +114,7 @@ std::vector<Contestant> read_contestants(const std::string& list, const fs::path
       faults.push_back(unknown(word, known));
       continue;
     }
-    const fs::path file = is_path(word) ? fs::path(word) : found->second;
+    const fs::path file = is_path(word) ? fs::path(word) : from_here(found->second);
     const std::string name = file.stem().string();
     if (const std::string why = unfit(name); !why.empty()) {
       faults.push_back(fmt::format("--methods: {} {}", in_quotes(word), why));

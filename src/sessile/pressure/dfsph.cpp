@@ -12,7 +12,7 @@ PressureResult correct(const IterationLimits& limits, double warm_start, const S
   const auto share = static_cast<Real>(warm_start);
   for_each(s.n, [&](int i) { pressure[static_cast<std::size_t>(i)] *= share; });
   return iterate(
-      limits, s, dt, [](Real p, Real a_ii, Real predicted) { return p + max(predicted - 1, Real(0)) / -a_ii; },
+      limits, s, dt, [](Real p, Real a_ii, Real predicted, Real) { return p + max(predicted - 1, Real(0)) / -a_ii; },
       pressure, scratch);
 }
 

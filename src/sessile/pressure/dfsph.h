@@ -19,6 +19,7 @@ struct Dfsph {
   double divergence_error = 1e-3;
   int min_iterations = 2;
   int max_iterations = 200;
+  int long_solve = 50;
   int max_divergence_iterations = 200;
   double warm_start = 0.25;
   int least_neighbors = 20;
@@ -43,6 +44,8 @@ struct Dfsph {
               "share of the last step's pressures the solves start from"),
         field(&T::least_neighbors, "least_neighbors", "", non_negative,
               "neighbours, boundary particles among them, below which the divergence of a particle is let be"),
+        field(&T::long_solve, "long_solve", "", at_least(1),
+              "iterations above which a solve makes the next step shorter"),
     };
   }
 };

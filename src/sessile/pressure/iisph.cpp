@@ -4,17 +4,20 @@
 
 namespace sessile {
 
-// Relaxed Jacobi steps (35), written with what the pressures at hand leave:
-//   p^{l+1} = p^l + (omega/a_ii) ( rho0 - rho_adv - (A p^l)_i ),  clamped to p >= 0
+// Relaxed Jacobi steps (35), written with what the pressures at hand leave, and a part of the step before:
+//   p^{l+1} = p^l + (omega/a_ii) ( rho0 - rho_adv - (A p^l)_i ) + momentum (p^l - p^{l-1}),  clamped to p >= 0
 PressureResult solve(const Iisph& method, const StepView& s, const Array3& predicted_velocity, double dt,
                      Array<Real>& pressure, PressureScratch& scratch) {
   pressure_coefficients(s, predicted_velocity, dt, scratch);
   const auto share = static_cast<Real>(method.warm_start);
   for_each(s.n, [&](int i) { pressure[static_cast<std::size_t>(i)] *= share; });
   const auto relaxation = static_cast<Real>(method.relaxation);
+  const auto momentum = static_cast<Real>(method.momentum);
   return iterate(
       {method.error, method.min_iterations, method.max_iterations}, s, dt,
-      [=](Real p, Real a_ii, Real predicted) { return max(p + relaxation / a_ii * (1 - predicted), Real(0)); },
+      [=](Real p, Real a_ii, Real predicted, Real before) {
+        return max(p + relaxation / a_ii * (1 - predicted) + momentum * (p - before), Real(0));
+      },
       pressure, scratch);
 }
 

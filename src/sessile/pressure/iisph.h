@@ -14,6 +14,8 @@ struct Iisph {
   int max_iterations = 200;
   double relaxation = 0.5;
   double warm_start = 0.5;
+  double momentum = 0.3;
+  int long_solve = 50;
 
   static constexpr std::string_view name = "iisph";
   static constexpr std::string_view summary = "implicit incompressible SPH, relaxed Jacobi (eqs. 24-35)";
@@ -27,6 +29,10 @@ struct Iisph {
               "most iterations of a solve; a solve that ends here is counted and reported"),
         field(&T::relaxation, "relaxation", "", between(0.01, 1), "omega, weight of the new pressure in an iteration"),
         field(&T::warm_start, "warm_start", "", between(0, 1), "share of the last step's pressure a solve starts from"),
+        field(&T::momentum, "momentum", "", between(0, 0.9),
+              "share of an iteration's change that the next one repeats; 0 gives (35) as printed"),
+        field(&T::long_solve, "long_solve", "", at_least(1),
+              "iterations above which a solve makes the next step shorter"),
     };
   }
 };

@@ -15,6 +15,7 @@ struct Pcisph {
   double error = 1e-4;
   int min_iterations = 3;
   int max_iterations = 100;
+  int long_solve = 10;
 
   static constexpr std::string_view name = "pcisph";
   static constexpr std::string_view summary =
@@ -27,6 +28,8 @@ struct Pcisph {
         field(&T::min_iterations, "min_iterations", "", at_least(1), "fewest iterations of a solve"),
         field(&T::max_iterations, "max_iterations", "", at_least(1),
               "most iterations of a solve; a solve that ends here is counted and reported"),
+        field(&T::long_solve, "long_solve", "", at_least(1),
+              "iterations above which a solve makes the next step shorter"),
     };
   }
 };

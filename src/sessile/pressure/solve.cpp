@@ -1,6 +1,5 @@
 #include "sessile/pressure/solve.h"
 
-#include <limits>
 #include <type_traits>
 #include <variant>
 
@@ -45,13 +44,13 @@ double sound_speed(const Pressure& method) {
       method);
 }
 
-int most_iterations(const Pressure& method) {
+double effort(const Pressure& method, int iterations) {
   return std::visit(
-      [](const auto& chosen) {
-        if constexpr (requires { chosen.max_iterations; }) {
-          return chosen.max_iterations;
+      [&](const auto& chosen) {
+        if constexpr (requires { chosen.long_solve; }) {
+          return static_cast<double>(iterations) / chosen.long_solve;
         } else {
-          return std::numeric_limits<int>::max();
+          return 0.0;
         }
       },
       method);

@@ -52,8 +52,8 @@ PressureResult remove_divergence(const Dfsph& method, const StepView& view, Arra
 /// Speed [m/s] at which a solver lets pressure travel, which bounds the time step; 0 where it acts at once.
 double sound_speed(const Pressure& method);
 
-/// Most iterations that a solve may take; the greatest int where it does not iterate.
-int most_iterations(const Pressure& method);
+/// Iterations of a solve over those from which on the solver asks for shorter steps; 0 where it does not iterate.
+double effort(const Pressure& method, int iterations);
 
 /// a_ii: the derivative of particle i's density after the step by its own pressure (mended 34), and rho_adv (27).
 void pressure_coefficients(const StepView& view, const Array3& predicted_velocity, double dt, PressureScratch& scratch);

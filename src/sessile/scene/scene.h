@@ -27,7 +27,6 @@ struct TimeSettings {
   double force_factor = 0.25;
   double viscosity_factor = 0.125;
   double capillary_factor = 0.4;
-  double solver_effort = 0.1;
 
   static constexpr auto fields() {
     using T = TimeSettings;
@@ -44,8 +43,6 @@ struct TimeSettings {
         field(&T::viscosity_factor, "viscosity_factor", "", positive, "dt <= viscosity_factor * rho0 dx^2 / mu"),
         field(&T::capillary_factor, "capillary_factor", "", positive,
               "dt <= capillary_factor * sqrt(rho0 dx^3 / (2 pi sigma))"),
-        field(&T::solver_effort, "solver_effort", "", between(0.01, 1),
-              "share of max_iterations above which a pressure solve makes the next step shorter; 1: never"),
     };
   }
 };

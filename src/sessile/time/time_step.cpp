@@ -47,8 +47,8 @@ TimeStep choose_time_step(const TimeSettings& settings, const MotionScale& scale
   if (settings.dt_max < least.dt) least = {"dt_max", settings.dt_max};
   if (last > 0 && last * settings.growth < least.dt) least = {"growth", last * settings.growth};
   // Iterations grow with the step: a solve that needs many of them is near the end of what its solver can do.
-  if (scale.solver_effort > settings.solver_effort) {
-    const double shorter = last * std::max(0.5, std::sqrt(settings.solver_effort / scale.solver_effort));
+  if (scale.solver_effort > 1) {
+    const double shorter = last * std::max(0.5, 1 / std::sqrt(scale.solver_effort));
     if (shorter < least.dt) least = {"solver", shorter};
   }
   if (least.dt >= settings.dt_min) return {least.dt, least.name, ""};
