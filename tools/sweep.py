@@ -45,7 +45,7 @@ def verdict(method):
     text += f", {1e3 * first['dt_mean_s']:.2g} ms on average"
     if first["lost"]:
         text += f", {first['lost']} lost"
-    if "largest_sound_dt_s" in method:
+    if method["searched"]:
         largest = method["largest_sound_dt_s"]
         text += "; no fixed step" if largest is None else f"; fixed up to {1e3 * largest:g} ms"
     return text

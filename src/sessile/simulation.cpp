@@ -138,6 +138,7 @@ void Simulation::solve_pressure(double dt) {
   last_step_.predicted_error = result.error;
   last_step_.predicted_error_max = result.error_max;
   totals_.iterations += result.iterations;
+  totals_.solves += 1;
   totals_.unconverged_solves += !result.converged;
 }
 
@@ -158,6 +159,10 @@ void Simulation::free_velocities_of_divergence(double dt) {
   last_step_.converged = last_step_.converged && result.converged;
   totals_.divergence_iterations += result.iterations;
   totals_.unconverged_solves += !result.converged;
+  totals_.solves += 1;
+  if (!std::isfinite(last_step_.kinetic_energy)) {
+    throw RunError(fmt::format("velocities are no longer finite after the divergence solve at {:g} s", time_));
+  }
 }
 
 void Simulation::move(double dt) {

@@ -57,6 +57,7 @@ struct Totals {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::int64_t divergence_iterations = 0;
+  std::int64_t solves = 0;  ///< pressure solves, those that free velocities of divergence among them
   std::int64_t unconverged_solves = 0;
   std::int64_t overruled_steps = 0;  ///< steps in which a fixed dt or dt_min exceeded a stability bound
   std::int64_t emitted = 0;          ///< particles let in by emitters

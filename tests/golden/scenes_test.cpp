@@ -75,7 +75,8 @@ TEST(Tablet, BreaksUpWithoutTension) {
   EXPECT_EQ(simulation.totals().lost, 0);
 }
 
-/// At 4 s: at 3 s the farthest particle still draws in (1.34 to 1.37 from one solver setting to the next, 1.33 to 1.34 later).
+/// At 4 s: at 3 s the farthest particle still draws in (1.34 to 1.37 from one solver setting to the next, 1.33 to 1.34
+/// later).
 TEST(Drop, BecomesRound) {
   double peak = 0;
   const Simulation simulation = ran("drop.json", {"time.end=4"}, &peak);

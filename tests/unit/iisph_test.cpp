@@ -95,6 +95,43 @@ TEST(Iisph, AdvectedDensityIsTheFirstOrderPrediction) {
   }
 }
 
+TEST(Iisph, DensityAtThePredictedPositionsIsThere) {
+  test::Cloud cloud = test::lattice(7, 0.2, true);
+  const Real step = Real(2e-3);
+  cloud.look_around();
+  PressureScratch scratch;
+  pressure_coefficients(cloud.view(), cloud.particles.velocity, 2e-3, scratch);
+  const Array<Real> linear = scratch.advected;
+  advect_density_to_positions(cloud.view(), cloud.particles.velocity, 2e-3, scratch);
+  test::Cloud moved = cloud;  // with the old neighbours: a pair that comes into reach adds next to nothing
+  for (std::size_t i = 0; i < moved.particles.size(); ++i) {
+    moved.particles.position.set(i, cloud.particles.position[i] + step * cloud.particles.velocity[i]);
+  }
+  Array<Real> there;
+  compute_density(moved.view(), there);
+  double apart = 0;
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    EXPECT_NEAR(scratch.advected[i], there[i], 1e-6);
+    apart = std::max(apart, static_cast<double>(std::abs(linear[i] - there[i])));
+  }
+  EXPECT_GT(apart, 1e-5) << "else there is nothing to correct";
+}
+
+TEST(Iisph, DensityAtThePredictedPositionsIsTrustedWithinTwoPerCent) {
+  test::Cloud cloud = test::lattice(6, 0, true);
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) cloud.particles.velocity.set(i, {0, 0, Real(-30)});
+  cloud.look_around();
+  PressureScratch scratch;
+  pressure_coefficients(cloud.view(), cloud.particles.velocity, 2e-3, scratch);
+  const Array<Real> linear = scratch.advected;
+  advect_density_to_positions(cloud.view(), cloud.particles.velocity, 2e-3, scratch);
+  double greatest = 0;
+  for (std::size_t i = 0; i < linear.size(); ++i) {
+    greatest = std::max(greatest, static_cast<double>(std::abs(scratch.advected[i] - linear[i])));
+  }
+  EXPECT_NEAR(greatest, 0.02, 1e-6);
+}
+
 TEST(Iisph, TakesTheCompressionOutAndReportsWhatIsLeft) {
   test::Cloud cloud = test::lattice(8, 0.05, true);
   for (std::size_t i = 0; i < cloud.particles.size(); ++i) cloud.particles.velocity.set(i, {0, 0, Real(-1)});

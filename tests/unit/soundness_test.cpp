@@ -21,7 +21,7 @@ Soundness judged(F&& disturb, const SoundnessLimits& limits = {}) {
     state.kinetic_energy = step <= 50 ? step : 100 - step;  // greatest: 50 J
     state.pressure_work = -0.1 * step;
     state.density_error = 5e-4;
-    state.steps = step;
+    state.steps = state.solves = step;
     disturb(step, state);
     soundness.look(state);
   }
@@ -64,7 +64,7 @@ TEST(Soundness, EndsWhenPressureRunsAway) {
   for (int step = 1; step <= 2; ++step) {
     SoundnessState state;
     state.time = step;
-    state.steps = step;
+    state.steps = state.solves = step;
     state.kinetic_energy = 50;
     state.pressure_work = step == 1 ? 24 : 26;
     s.look(state);
@@ -78,7 +78,7 @@ TEST(Soundness, EndsWhenTooManySolvesMissTheirError) {
   for (int step = 1; step <= 60; ++step) {
     SoundnessState state;
     state.time = step;
-    state.steps = step;
+    state.steps = state.solves = step;
     state.kinetic_energy = 50;
     state.unconverged_solves = step >= 10 ? 6 : 0;
     s.look(state);

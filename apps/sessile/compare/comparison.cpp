@@ -96,13 +96,17 @@ std::vector<Row> rows_of(const Comparison& comparison) {
 
 std::vector<Row> fastest_sound(const Comparison& comparison) {
   std::vector<Row> fastest;
-  for (const Row& row : rows_of(comparison)) {
-    if (!row.run->sound || row.run->status != "done" || row.run->time <= 0) continue;
-    if (fastest.empty() || fastest.back().method != row.method) {
-      fastest.push_back(row);
-    } else if (row.run->wall_per_second() < fastest.back().run->wall_per_second()) {
-      fastest.back() = row;
+  for (const MethodReport& method : comparison.methods) {
+    Row best{&method, "", nullptr, nullptr};
+    const auto look = [&](const std::string& step, const RunRecord& run) {
+      if (!run.sound || run.status != "done" || run.time <= 0) return;
+      if (best.run == nullptr || run.wall_per_second() < best.run->wall_per_second()) best.run = &run, best.step = step;
+    };
+    if (method.run) look(method.kind, *method.run);
+    for (const TrialReport& trial : method.trials) {
+      if (trial.whole) look("fixed", trial.record);
     }
+    if (best.run != nullptr) fastest.push_back(best);
   }
   return fastest;
 }

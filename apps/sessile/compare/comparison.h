@@ -57,7 +57,8 @@ std::vector<Row> rows_of(const Comparison& comparison);
 /// Stepping time per simulated second over that of the first method's first run; 0 where one of them is not known.
 double factor_to_first(const Comparison& comparison, const RunRecord& run);
 
-/// The row of each method's sound run that takes the least time per simulated second; methods without one are left out.
+/// Each method's sound run to the end that takes the least time per simulated second, trials of the search among them;
+/// methods without one are left out, and outcomes are not given.
 std::vector<Row> fastest_sound(const Comparison& comparison);
 
 /// Name of this machine's processor; "unknown" where the system does not tell.

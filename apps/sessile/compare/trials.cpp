@@ -112,9 +112,7 @@ RunRecord run_or_reuse(const ResolvedScene& resolved, const TrialSettings& setti
   if (result.error) {
     try {
       std::rethrow_exception(result.error);
-    } catch (const FileError&) {  // no room for this run is none for the others
-      throw;
-    } catch (const std::exception&) {  // a method that fails has its place in the report
+    } catch (const RunError&) {  // a method that fails has its place in the report; what else fails is not its fault
     }
   }
   const RunRecord record = observer.record(result, resolved);

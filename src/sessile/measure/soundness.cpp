@@ -23,6 +23,7 @@ void Soundness::look(const Simulation& simulation) {
   state.time = simulation.time();
   state.density_error = compression(simulation.density()).average;
   state.steps = totals.steps;
+  state.solves = totals.solves;
   state.unconverged_solves = totals.unconverged_solves;
   state.lost = totals.lost;
   state.kinetic_energy = simulation.last_step().kinetic_energy;
@@ -44,7 +45,7 @@ void Soundness::look(const SoundnessState& state) {
   }
   judge_pressure_work(limits_.runaway);
   constexpr std::int64_t enough = 50;
-  if (state.steps >= enough) judge_solves(limits_.hopeless);
+  if (state.solves >= enough) judge_solves(limits_.hopeless);
 }
 
 void Soundness::fail(double time, const std::string& message) { judge(time, message); }
@@ -70,7 +71,7 @@ void Soundness::judge_pressure_work(double limit) {
 void Soundness::judge_solves(double limit) {
   if (unconverged_share() <= limit) return;
   judge(last_.time, fmt::format("{} of {} pressure solves ended above their error, {:.3g} %; the limit is {:g} %",
-                                last_.unconverged_solves, last_.steps, 100 * unconverged_share(), 100 * limit));
+                                last_.unconverged_solves, last_.solves, 100 * unconverged_share(), 100 * limit));
 }
 
 double Soundness::pressure_work_share() const { return greatest_energy_ > 0 ? greatest_work_ / greatest_energy_ : 0; }
@@ -79,7 +80,7 @@ double Soundness::density_error() const {
   return error_sum_ / static_cast<double>(std::max<std::int64_t>(1, last_.steps));
 }
 
-double Soundness::unconverged_share() const { return share(last_.unconverged_solves, last_.steps); }
+double Soundness::unconverged_share() const { return share(last_.unconverged_solves, last_.solves); }
 
 void Soundness::judge(double time, std::string reason) {
   if (!verdict_.sound) return;  // the first reason stays

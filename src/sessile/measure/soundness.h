@@ -23,6 +23,7 @@ struct SoundnessState {
   double pressure_work = 0;   ///< of the pressure's accelerations [J]
   double density_error = 0;   ///< average compression at the new positions
   std::int64_t steps = 0;
+  std::int64_t solves = 0;
   std::int64_t unconverged_solves = 0;
   std::int64_t lost = 0;  ///< passages through a solid, positions that are not finite
 };

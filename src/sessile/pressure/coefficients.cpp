@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <tuple>
 
+#include "sessile/particles/density.h"
 #include "sessile/pressure/density_rate.h"
 
 namespace sessile {
@@ -38,6 +40,23 @@ void pressure_coefficients(const StepView& s, const Array3& v, double dt, Pressu
   scratch.diagonal.resize(s.n);
   for_each(s.n, CoefficientsKernel{
                     s, {s, view(v), true}, static_cast<Real>(dt), scratch.advected.data(), scratch.diagonal.data()});
+}
+
+void advect_density_to_positions(const StepView& s, const Array3& v, double dt, PressureScratch& scratch) {
+  scratch.predicted_position.resize(s.n);
+  const auto step = static_cast<Real>(dt);
+  for_each(s.n, [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    scratch.predicted_position.set(k, s.x[i] + step * v[k]);
+  });
+  StepView after = s;
+  after.x = view(scratch.predicted_position);
+  compute_density(after, scratch.next);
+  constexpr auto most = Real(0.02);
+  for_each(s.n, [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    scratch.advected[k] += std::clamp(scratch.next[k] - scratch.advected[k], -most, most);
+  });
 }
 
 void density_change(const StepView& s, const Array3& acceleration, double dt, Array<Real>& change) {

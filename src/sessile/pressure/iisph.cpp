@@ -9,6 +9,7 @@ namespace sessile {
 PressureResult solve(const Iisph& method, const StepView& s, const Array3& predicted_velocity, double dt,
                      Array<Real>& pressure, PressureScratch& scratch) {
   pressure_coefficients(s, predicted_velocity, dt, scratch);
+  if (method.prediction == Prediction::positions) advect_density_to_positions(s, predicted_velocity, dt, scratch);
   const auto share = static_cast<Real>(method.warm_start);
   for_each(s.n, [&](int i) { pressure[static_cast<std::size_t>(i)] *= share; });
   const auto relaxation = static_cast<Real>(method.relaxation);

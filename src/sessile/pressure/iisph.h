@@ -1,11 +1,20 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <tuple>
 
 #include "sessile/core/fields.h"
 
 namespace sessile {
+
+/// How the density that v* leads to is predicted: to first order as in (27), or at the positions it leads to.
+enum class Prediction { linear, positions };
+
+template <>
+struct Words<Prediction> {
+  static constexpr std::array<std::string_view, 2> words{"linear", "positions"};
+};
 
 /// Implicit incompressible SPH (Ihmsen et al. 2014; the paper's eqs. 24-35 and Algorithm 1).
 struct Iisph {
@@ -16,6 +25,7 @@ struct Iisph {
   double warm_start = 0.5;
   double momentum = 0.3;
   int long_solve = 50;
+  Prediction prediction = Prediction::linear;
 
   static constexpr std::string_view name = "iisph";
   static constexpr std::string_view summary = "implicit incompressible SPH, relaxed Jacobi (eqs. 24-35)";
@@ -33,6 +43,8 @@ struct Iisph {
               "share of an iteration's change that the next one repeats; 0 gives (35) as printed"),
         field(&T::long_solve, "long_solve", "", at_least(1),
               "iterations above which a solve makes the next step shorter"),
+        field(&T::prediction, "prediction",
+              "advected density: linear in the step as in (27), or taken at the predicted positions, within 2 %"),
     };
   }
 };

@@ -10,9 +10,10 @@
 namespace sessile {
 namespace {
 
-/// sum_j |grad W|^2 [1/m^2] of a particle inside a cubic lattice that `mass` (in rho0 dx^3) fills at rest density.
+/// sum_j |grad W|^2 [1/m^2] of a particle inside a cubic lattice that `mass` (in rho0 dx^3) fills at rest density; of
+/// one at dx for heavier ones, whose own lattice would leave few neighbours or none within h.
 double lattice_gradients(const StepView& s, double mass) {
-  const double spacing = s.units.spacing * std::cbrt(mass);
+  const double spacing = s.units.spacing * std::min(1.0, std::cbrt(mass));
   const int reach = static_cast<int>(s.units.support_radius / spacing) + 1;
   double sum = 0;
   for (int x = -reach; x <= reach; ++x) {

@@ -106,6 +106,12 @@ class SceneCheck {
                               solver.max_iterations),
                   {"pressure.max_iterations"});
             }
+            if (solver.long_solve < solver.min_iterations) {
+              add("pressure.long_solve",
+                  fmt::format("{} is less than pressure.min_iterations, {}: every step would be shorter than the last",
+                              solver.long_solve, solver.min_iterations),
+                  {"pressure.min_iterations"});
+            }
           }
         },
         scene_.pressure);

@@ -48,7 +48,10 @@ TimeStep choose_time_step(const TimeSettings& settings, const MotionScale& scale
   if (last > 0 && last * settings.growth < least.dt) least = {"growth", last * settings.growth};
   // Iterations grow with the step: a solve that needs many of them is near the end of what its solver can do.
   if (scale.solver_effort > 1) {
-    const double shorter = last * std::max(0.5, 1 / std::sqrt(scale.solver_effort));
+    // Compression that is there already must go within one step, however short: below a tenth of the other bounds a
+    // shorter one does not help.
+    const double floor = 0.1 * std::min(stable.dt, settings.dt_max);
+    const double shorter = std::max(floor, last * std::max(0.5, 1 / std::sqrt(scale.solver_effort)));
     if (shorter < least.dt) least = {"solver", shorter};
   }
   if (least.dt >= settings.dt_min) return {least.dt, least.name, ""};
