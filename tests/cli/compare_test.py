@@ -154,7 +154,7 @@ class Resuming(CompareTest):
 
     def test_after_an_interruption(self):
         # The second method works long, so that the signal meets it.
-        slow = tiny(time={"end": 3, "fixed_dt": 0.002}, output={"frame_interval": 0.5, "stats_interval": 0.01})
+        slow = tiny(time={"end": 12, "fixed_dt": 0.002}, output={"frame_interval": 0.5, "stats_interval": 0.01})
         shutil.copy(self.folder / "methods/nothing.json", self.folder / "methods/third.json")
         process = self.start("compare", self.write(slow), "--methods", "nothing,under_score,third", "-o", "out",
                              "--progress", "none")

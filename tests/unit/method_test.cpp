@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <variant>
 
+#include "sessile/core/units.h"
 #include "sessile/output/check.h"
 #include "unit/scene_files.h"
 
@@ -93,6 +95,24 @@ TEST_F(Methods, AreJudgedWithTheScene) {
   const ResolvedMethod turned = read_resolved_method(
       write("t.json", "{\"pressure\": {\"type\": \"iisph\",\n\"min_iterations\": 9, \"max_iterations\": 3}}"));
   EXPECT_TRUE(has(faults_in([&] { with_method(scene, turned); }).at(0), "t.json:2: pressure.m"));
+}
+
+// What docs/comparing.md says of the presets: 119 N/m at the paper's scale, but for those without tension and csf.
+TEST(Presets, HaveTheTensionThatIsSaidOfThem) {
+  const Units units{0.1, 0.2, 1000};
+  int found = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SESSILE_SCENES) / "methods")) {
+    const Method method = read_method(entry.path());
+    const std::string name = entry.path().stem().string();
+    double tension = 0;
+    for (const Force& force : method.forces) {
+      tension += std::visit([&](const auto& model) { return model.tension(units); }, force);
+    }
+    EXPECT_NE(method.title, "") << name;
+    EXPECT_NEAR(tension, name == "none" ? 0 : name == "csf" ? 15 : 119, 1) << name;
+    ++found;
+  }
+  EXPECT_GE(found, 13);
 }
 
 }  // namespace
