@@ -94,6 +94,16 @@ inline Cloud lattice(int n, double jitter, bool floor = false, unsigned seed = 1
   return cloud;
 }
 
+/// A block above a floor that moves on to it at `speed` [m/s].
+inline Cloud falling_block(double speed, unsigned seed = 1) {
+  Cloud cloud = lattice(8, 0.05, true, seed);
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+    cloud.particles.velocity.set(i, {0, 0, static_cast<Real>(-speed)});
+  }
+  cloud.look_around();
+  return cloud;
+}
+
 /// |sum_i m_i a_i| over sum_i m_i |a_i|.
 inline double net_over_total(const Cloud& cloud, const Array3& a) {
   Vec3d net;

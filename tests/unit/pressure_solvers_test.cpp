@@ -15,16 +15,6 @@ namespace {
 constexpr double dt = 0.002;
 constexpr double rounding = sizeof(Real) == 4 ? 2e-4 : 1e-11;
 
-/// A block above a floor that moves on to it at `speed` [m/s].
-test::Cloud falling_block(double speed, unsigned seed = 1) {
-  test::Cloud cloud = test::lattice(8, 0.05, true, seed);
-  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
-    cloud.particles.velocity.set(i, {0, 0, static_cast<Real>(-speed)});
-  }
-  cloud.look_around();
-  return cloud;
-}
-
 struct Solved {
   PressureResult result;
   Array<Real> pressure;
@@ -63,7 +53,7 @@ std::string name_of(const Pressure& method) {
 static_assert(std::variant_size_v<Pressure> == 4, "a new solver belongs into every_solver()");
 
 TEST(EverySolver, LanesAgreeWithOneLane) {
-  const test::Cloud cloud = falling_block(1);
+  const test::Cloud cloud = test::falling_block(1);
   for (const Pressure& method : every_solver()) {
     const Solved lanes = solved(method, cloud), one = solved(method, cloud, true);
     EXPECT_LT(test::difference(lanes.scratch.acceleration, one.scratch.acceleration), rounding) << name_of(method);
@@ -97,7 +87,7 @@ TEST(EverySolver, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(EverySolver, PressureNeverPulls) {
-  const test::Cloud cloud = falling_block(1);
+  const test::Cloud cloud = test::falling_block(1);
   for (const Pressure& method : every_solver()) {
     const Solved s = solved(method, cloud);
     EXPECT_GE(*std::min_element(s.pressure.begin(), s.pressure.end()), 0) << name_of(method);
@@ -118,7 +108,7 @@ TEST(EverySolver, RunsWithoutParticles) {
 }
 
 TEST(EverySolver, ThatIteratesTakesTheCompressionOut) {
-  const test::Cloud cloud = falling_block(1);
+  const test::Cloud cloud = test::falling_block(1);
   Solved nothing;
   nothing.scratch.acceleration.assign(cloud.particles.size(), {});
   const double without = real_error(cloud, nothing);
@@ -156,7 +146,7 @@ TEST(Pcisph, FirstCorrectionIsDeltaTimesTheCompression) {
 }
 
 TEST(Pcisph, ItsErrorIsThatAtThePredictedPositions) {
-  const test::Cloud cloud = falling_block(1);
+  const test::Cloud cloud = test::falling_block(1);
   const Solved s = solved(Pcisph{}, cloud);
   // Neighbours that come into reach within the step are all it misses: their W is next to nothing.
   EXPECT_NEAR(s.result.error, real_error(cloud, s), 2e-6);
@@ -186,7 +176,7 @@ TEST(Pcisph, LighterParticlesGetTheSamePressure) {
 }
 
 TEST(Wcsph, PressureIsTaits) {
-  const test::Cloud cloud = falling_block(1);
+  const test::Cloud cloud = test::falling_block(1);
   Wcsph method;
   method.sound_speed = 30;
   method.gamma = 7;
@@ -229,94 +219,6 @@ TEST(Wcsph, RefusesASceneThatGivesNoSpeedOfSound) {
   Scene scene = test::block(4);  // no gravity, no motion, no tension
   scene.pressure = Wcsph{};
   EXPECT_THROW(Simulation{scene}, SceneError);
-}
-
-class DivergenceSolve : public testing::Test {
- protected:
-  void run(bool one_lane = false) {
-    pressure.assign(cloud.particles.size(), 0);
-    velocity = cloud.particles.velocity;
-    result = remove_divergence(method, cloud.view(one_lane), velocity, dt, pressure, scratch);
-  }
-  test::Cloud cloud = falling_block(1);
-  Dfsph method{.divergence_error = 1e-5};
-  Array<Real> pressure;
-  Array3 velocity;
-  PressureScratch scratch;
-  PressureResult result;
-};
-
-TEST_F(DivergenceSolve, LeavesVelocitiesThatDoNotCompress) {
-  run();
-  EXPECT_TRUE(result.converged);
-  const auto compression = [&](const Array3& v) {  // average of what a step would bring
-    PressureScratch of;
-    pressure_coefficients(cloud.view(), v, dt, of);
-    double sum = 0;
-    for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
-      if (cloud.near.count(i) + cloud.near_walls.count(i) < method.least_neighbors) continue;
-      sum += std::max(0.0, static_cast<double>(of.advected[i] - cloud.density[i]));
-    }
-    return sum / static_cast<double>(cloud.particles.size());
-  };
-  EXPECT_GT(compression(cloud.particles.velocity), 20 * method.divergence_error);
-  EXPECT_LT(compression(velocity), 1.1 * method.divergence_error);
-  EXPECT_NEAR(compression(velocity), result.error, 0.1 * method.divergence_error);
-}
-
-TEST_F(DivergenceSolve, LanesAgreeWithOneLane) {
-  run();
-  const Array3 lanes = velocity;
-  run(true);
-  EXPECT_LT(test::difference(lanes, velocity), rounding);
-}
-
-TEST_F(DivergenceSolve, LetsLiquidFlyApart) {
-  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
-    cloud.particles.velocity.set(i, cloud.particles.position[i] + Vec3r{0, 0, Real(0.2)});
-  }
-  run();
-  EXPECT_EQ(result.iterations, 1);
-  EXPECT_EQ(test::difference(velocity, cloud.particles.velocity), 0);
-}
-
-TEST_F(DivergenceSolve, LetsParticlesWithFewNeighboursBe) {
-  cloud = {};
-  cloud.add({0, 0, 0}, {1, 0, 0});
-  cloud.add({0.12, 0, 0}, {-1, 0, 0});
-  cloud.look_around();
-  run();
-  EXPECT_EQ(velocity[0], (Vec3r{1, 0, 0}));
-  method.least_neighbors = 0;
-  run();
-  EXPECT_LT(velocity[0].x, Real(0.1)) << "else they are stopped";
-}
-
-TEST_F(DivergenceSolve, ConservesMomentumAwayFromWalls) {
-  cloud = test::lattice(9, 0.2);
-  cloud.look_around();
-  run();
-  Array3 gained = velocity;
-  for (std::size_t i = 0; i < gained.size(); ++i) gained.set(i, velocity[i] - cloud.particles.velocity[i]);
-  EXPECT_LT(test::net_over_total(cloud, gained), sizeof(Real) == 4 ? 1e-5 : 1e-12);
-}
-
-TEST(Dfsph, StepsEndWithVelocitiesFreeOfDivergenceAndTheWallFeelsIt) {
-  Scene scene = test::column(8, 8);
-  scene.gravity = {};
-  scene.bodies[0].velocity = {0, 0, -1};
-  scene.pressure = Dfsph{};
-  Simulation simulation(scene);
-  const double mass = simulation.units().particle_mass() * 512;
-  double impulse = 0;
-  for (int k = 0; k < 30; ++k) {
-    simulation.step();
-    impulse += simulation.last_step().dt * simulation.walls().forces[0].force.z;
-  }
-  EXPECT_GT(simulation.totals().divergence_iterations, 29);
-  double momentum = 0;
-  for (const Real vz : simulation.particles().velocity.z) momentum += mass / 512 * static_cast<double>(vz);
-  EXPECT_NEAR(impulse / -(momentum + mass), 1, 1e-3) << "both solvers push the floor with what they take";
 }
 
 }  // namespace

@@ -59,6 +59,20 @@ std::string table_head(const std::vector<std::string>& titles, std::size_t words
   return table_line(titles) + table_line(rules);
 }
 
+/// "-" where the first method took no time: it failed at once.
+std::string factor(const Comparison& comparison, const RunRecord& run) {
+  const double value = factor_to_first(comparison, run);
+  return value > 0 ? fmt::format("{:.2f}", value) : "-";
+}
+
+/// Those of the divergence solve behind a plus, where there is one.
+std::string iterations(const RunRecord& run) {
+  const std::string text = fmt::format("{:.1f}", run.iterations_per_step);
+  if (run.divergence_iterations == 0 || run.steps == 0) return text;
+  return text +
+         fmt::format(" + {:.1f}", static_cast<double>(run.divergence_iterations) / static_cast<double>(run.steps));
+}
+
 std::string soundness(const RunRecord& run) {
   if (run.status == "interrupted") return "interrupted";
   if (run.status == "failed") return "**failed**";
@@ -102,11 +116,11 @@ std::string runs_table(const Comparison& comparison) {
   for (const Row& row : rows_of(comparison)) {
     const RunRecord& run = *row.run;
     text += table_line({cell(row.method->name), row.step, soundness(run), seconds(run.stepping), seconds(run.wall),
-                        seconds(run.wall_per_second()), fmt::format("{:.2f}", factor_to_first(comparison, run)),
-                        fmt::format("{}", run.steps), milliseconds(run.dt_mean), milliseconds(run.dt_least),
-                        milliseconds(run.dt_greatest), fmt::format("{:.1f}", run.iterations_per_step),
-                        percent(run.density_error), percent(run.density_error_max), percent(run.predicted_error),
-                        percent(run.predicted_error_max), fmt::format("{:.3g} J", run.energy.pressure)});
+                        seconds(run.wall_per_second()), factor(comparison, run), fmt::format("{}", run.steps),
+                        milliseconds(run.dt_mean), milliseconds(run.dt_least), milliseconds(run.dt_greatest),
+                        iterations(run), percent(run.density_error), percent(run.density_error_max),
+                        percent(run.predicted_error), percent(run.predicted_error_max),
+                        fmt::format("{:.3g} J", run.energy.pressure)});
   }
   text += "\n";
   for (const Row& row : rows_of(comparison)) {
@@ -132,9 +146,8 @@ std::string fastest_table(const Comparison& comparison) {
   text += table_head(
       {"method", "step", "mean dt", "iterations a step", "density error", "time per simulated s", "speed"}, 2);
   for (const Row& row : rows) {
-    text += table_line({cell(row.method->name), row.step, milliseconds(row.run->dt_mean),
-                        fmt::format("{:.1f}", row.run->iterations_per_step), percent(row.run->density_error),
-                        seconds(row.run->wall_per_second()),
+    text += table_line({cell(row.method->name), row.step, milliseconds(row.run->dt_mean), iterations(*row.run),
+                        percent(row.run->density_error), seconds(row.run->wall_per_second()),
                         fmt::format("{:.2f}", first.run->wall_per_second() / row.run->wall_per_second())});
   }
   return text + "\n";

@@ -46,6 +46,7 @@ RunRecord RunObserver::record(const SessionResult& result, const ResolvedScene& 
   r.dt_greatest = dt_greatest_;
   r.steps = totals.steps;
   r.iterations = totals.iterations;
+  r.divergence_iterations = totals.divergence_iterations;
   r.iterations_per_step = static_cast<double>(totals.iterations) / steps;
   r.unconverged_solves = totals.unconverged_solves;
   r.overruled_steps = totals.overruled_steps;

@@ -26,7 +26,7 @@ struct RunRecord {
 
   double time = 0, dt_mean = 0, dt_least = 0, dt_greatest = 0;  ///< [s]
   double iterations_per_step = 0;
-  std::int64_t steps = 0, iterations = 0, unconverged_solves = 0, overruled_steps = 0;
+  std::int64_t steps = 0, iterations = 0, divergence_iterations = 0, unconverged_solves = 0, overruled_steps = 0;
   std::int64_t particles = 0, wall_particles = 0, emitted = 0, waits = 0, out = 0, lost = 0;
 
   EnergyAccount energy{};
@@ -62,6 +62,7 @@ void for_each_figure(Record& r, F&& f) {
   f("dt_greatest_s", r.dt_greatest);
   f("steps", r.steps);
   f("iterations", r.iterations);
+  f("divergence_iterations", r.divergence_iterations);
   f("iterations_per_step", r.iterations_per_step);
   f("unconverged_solves", r.unconverged_solves);
   f("overruled_steps", r.overruled_steps);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <json/json.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <system_error>
@@ -45,7 +46,9 @@ class Search {
   void run() {
     const TimeSettings& time = contestant_.resolved.scene.time;
     const double greatest = report_.run && report_.run->dt_greatest > 0 ? report_.run->dt_greatest : time.dt_max;
-    const StepSearch search{place_at_most(greatest), place_at_least(time.dt_min), place_at_most(settings_.search_max)};
+    // A method that is unsound at a thirtieth of its own steps is hardly so for their length.
+    const int start = place_at_most(greatest), least = std::max(place_at_least(time.dt_min), start - 15);
+    const StepSearch search{start, least, place_at_most(settings_.search_max)};
     const bool to_the_end = settings_.search_until >= time.end;
     std::vector<StepTrial> trials;
     while (const auto place = next_trial(search, trials)) {
@@ -98,7 +101,8 @@ RunRecord run_or_reuse(const ResolvedScene& resolved, const TrialSettings& setti
                        const std::string& label, bool stop_unsound) {
   const std::filesystem::path path = settings.folder / folder, verdict = path / "verdict.json";
   const auto before = read_verdict(verdict);
-  if (before && before->finished() && before->version == version() && before->scene == to_json(resolved.scene)) {
+  if (before && before->finished() && before->version == version() && before->threads == omp_get_max_threads() &&
+      before->scene == to_json(resolved.scene)) {
     tell(settings, label, ending(*before, true));
     return *before;
   }

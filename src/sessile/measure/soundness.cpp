@@ -43,8 +43,8 @@ void Soundness::look(const SoundnessState& state) {
   if (state.lost > 0) {
     judge(state.time, fmt::format("{} passed through a solid", state.lost == 1 ? "a particle has" : "particles have"));
   }
-  judge_pressure_work(limits_.runaway);
-  constexpr std::int64_t enough = 50;
+  constexpr std::int64_t enough = 50;  // the first steps have little energy, and few solves
+  if (state.steps >= enough) judge_pressure_work(limits_.runaway);
   if (state.solves >= enough) judge_solves(limits_.hopeless);
 }
 

@@ -12,7 +12,7 @@ struct SoundnessLimits {
   double pressure_work = 0.01;  ///< greatest work of pressure, over the greatest kinetic energy of the run
   double density_error = 1e-3;  ///< mean over the steps of the average compression at the new positions
   double unconverged = 0.01;    ///< share of pressure solves that end above their error
-  double runaway = 0.5;         ///< work of pressure so far, over the greatest kinetic energy so far
+  double runaway = 0.5;         ///< work of pressure so far, over the greatest kinetic energy so far, after 50 steps
   double hopeless = 0.1;        ///< share of the solves so far that ended above their error, once there were 50
 };
 
