@@ -57,7 +57,7 @@ void sort(benchmark::State& state) {
 void neighbor_list(benchmark::State& state) {
   NeighborList list;
   run(state, [&](const test::Cloud& c) {
-    list.build(c.particles.position, c.particles.position, c.grid, c.space, Real(0.2), true);
+    list.build({c.particles.position, c.grid}, {c.particles.position, c.grid}, c.space, Real(0.2));
   });
 }
 

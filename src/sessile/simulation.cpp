@@ -64,8 +64,9 @@ void Simulation::look_around() {
     const auto h = static_cast<Real>(units_.support_radius);
     grid_.build(particles_.position, grid_shape_);
     particles_.reorder(grid_.order());
-    fluid_neighbors_.build(particles_.position, particles_.position, grid_, space_, h, true);
-    wall_neighbors_.build(particles_.position, walls_.position, wall_grid_, space_, h, false);
+    const SortedPoints fluid{particles_.position, grid_}, samples{walls_.position, wall_grid_};
+    fluid_neighbors_.build(fluid, fluid, space_, h);
+    wall_neighbors_.build(fluid, samples, space_, h);
   }
   const Stopwatch watch(stage_times_.density);
   const auto& masses = particles_.mass;

@@ -73,8 +73,8 @@ std::vector<std::string> misplaced(const Array3& points, const std::vector<std::
   for (const std::int32_t k : grid.order()) sorted.push_back(points[static_cast<std::size_t>(k)]);
   const auto close = static_cast<Real>(least_distance * scene.spacing);
   NeighborList pairs, touches;
-  pairs.build(sorted, sorted, grid, space, close, true);
-  touches.build(sorted, walls.position, wall_grid, space, close, false);
+  pairs.build({sorted, grid}, {sorted, grid}, space, close);
+  touches.build({sorted, grid}, {walls.position, wall_grid}, space, close);
 
   std::map<std::string, std::size_t> inside;  // "bodies[0] ... in the solid x" -> particles
   std::map<std::string, std::size_t> outside;
@@ -239,8 +239,8 @@ Array3 Simulation::acceleration(std::string_view name) const {
 
 std::size_t Simulation::bytes() const {
   // position, velocity, normal, acceleration, pressure acceleration, predicted position; mass, both pressures, density,
-  // stress, advected, diagonal, next
-  const std::size_t arrays = particles_.size() * ((6 * 3 + 8) * sizeof(Real) + sizeof(std::int64_t));
+  // stress, advected, diagonal, next, change
+  const std::size_t arrays = particles_.size() * ((6 * 3 + 9) * sizeof(Real) + sizeof(std::int64_t));
   return arrays + walls_.bytes() + grid_.bytes() + wall_grid_.bytes() + fluid_neighbors_.bytes() +
          wall_neighbors_.bytes();
 }

@@ -52,8 +52,8 @@ struct Cloud {
       for (std::size_t k = 0; k < order.size(); ++k) array[k] = old[static_cast<std::size_t>(order[k])];
     };
     sort(walls.position.x), sort(walls.position.y), sort(walls.position.z), sort(walls.psi), sort(walls.solid);
-    near.build(particles.position, particles.position, grid, space, h, true);
-    near_walls.build(particles.position, walls.position, wall_grid, space, h, false);
+    near.build({particles.position, grid}, {particles.position, grid}, space, h);
+    near_walls.build({particles.position, grid}, {walls.position, wall_grid}, space, h);
     compute_density(view(one_lane), density);
     compute_normals(view(one_lane), normal);
   }
@@ -62,7 +62,7 @@ struct Cloud {
     StepView s(units, space, particles, walls, near, near_walls);
     s.rho = sessile::view(density);
     s.normal = sessile::view(normal);
-    s.near.one_lane = s.near_walls.one_lane = one_lane;
+    s.one_lane = one_lane;
     return s;
   }
 };

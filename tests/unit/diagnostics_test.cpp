@@ -28,16 +28,16 @@ class AllPairs {
     std::mt19937 random(5);  // lists promise no order
     for (auto& list : lists_) {
       std::shuffle(list.begin(), list.end(), random);
-      firsts_.push_back(list.data());
+      groups_.push_back({list.data(), static_cast<std::int32_t>(list.size())});
       counts_.push_back(static_cast<std::int32_t>(list.size()));
     }
   }
-  NeighborRows rows() const { return {firsts_.data(), counts_.data()}; }
+  NeighborRows rows() const { return {groups_.data(), counts_.data()}; }
   const std::vector<std::int32_t>& operator[](std::size_t i) const { return lists_[i]; }
 
  private:
   std::vector<std::vector<std::int32_t>> lists_;
-  std::vector<const std::int32_t*> firsts_;
+  std::vector<NeighborGroup> groups_;
   std::vector<std::int32_t> counts_;
 };
 

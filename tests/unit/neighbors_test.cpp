@@ -66,7 +66,7 @@ void check_against_all_pairs(const Array3& unsorted, const Space& space = {}, co
       grid.build(unsorted, shape);
       const Array3 points = sorted_by(grid, unsorted);
       NeighborList list;
-      list.build(points, points, grid, space, radius, true);
+      list.build({points, grid}, {points, grid}, space, radius);
       expect_all_pairs(points, points, true, list, space);
     });
   }
@@ -122,12 +122,13 @@ TEST(Neighbors, EqualAllPairsBetweenTwoSets) {
   other_grid.build(unsorted_others, shape);
   const Array3 points = sorted_by(grid, unsorted), others = sorted_by(other_grid, unsorted_others);
   NeighborList list;
-  list.build(points, others, other_grid, {}, radius, false);
+  list.build({points, grid}, {others, other_grid}, {}, radius);
   expect_all_pairs(points, others, false, list, {});
   NeighborList none;
   Grid empty;
   empty.build({}, shape);
-  none.build(points, {}, empty, {}, radius, false);
+  const Array3 nothing;
+  none.build({points, grid}, {nothing, empty}, {}, radius);
   expect_all_pairs(points, {}, false, none, {});
 }
 
@@ -138,7 +139,7 @@ TEST(Neighbors, SurviveASecondBuildWithOtherPoints) {
     Grid grid;
     grid.build(unsorted, GridShape::make(static_cast<double>(radius), {}, {}));
     const Array3 points = sorted_by(grid, unsorted);
-    list.build(points, points, grid, {}, radius, true);
+    list.build({points, grid}, {points, grid}, {}, radius);
     expect_all_pairs(points, points, true, list, {});
   }
 }

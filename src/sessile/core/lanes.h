@@ -13,8 +13,9 @@
 #include "sessile/core/real.h"
 #include "sessile/core/vec.h"
 
-/// A thin face over xsimd. Pair laws are generic in the type of a neighbour's index: an int gives numbers, IndexLanes
-/// give packs, and the same lines of code compute both. Internal: no installed header includes this one.
+/// A thin face over xsimd. Pair laws are generic in the types of their two indices: two ints give numbers, a Group of
+/// particles and IndexLanes, one neighbour for each of them, give packs, and the same lines of code compute both.
+/// Internal: no installed header includes this one.
 namespace sessile {
 
 using Lanes = xsimd::batch<Real>;
@@ -23,8 +24,20 @@ using IndexLanes = xsimd::batch<LaneIndex>;
 using LaneMask = Lanes::batch_bool_type;
 inline constexpr int lane_count = static_cast<int>(Lanes::size);
 
+/// lane_count particles in a row, one a lane; `first` is a multiple of lane_count. Arrays have room for the lanes past
+/// the last particle: what is computed there is never read.
+struct Group {
+  int first;
+};
+
+template <class I>
+concept ParticleIndex = std::same_as<I, int> || std::same_as<I, Group>;
 template <class J>
 concept NeighborIndex = std::same_as<J, int> || std::same_as<J, IndexLanes>;
+
+/// What a law computes with: numbers for an int, packs for lanes.
+template <class I>
+using LaneOf = std::conditional_t<std::same_as<I, int>, Real, Lanes>;
 
 // --- the few functions a pair law needs, for numbers; packs find xsimd's by their argument -------------------------
 
@@ -36,6 +49,9 @@ using xsimd::max;
 using xsimd::min;
 using xsimd::select;
 using xsimd::sqrt;
+
+inline bool any(bool condition) { return condition; }
+using xsimd::any;
 
 /// 1/sqrt(a) to float rounding, for a > 0. Root and division of a pack keep its divider busy for some 40 cycles, half
 /// of a pass; the processor's estimate and one step of Newton's method take six. xsimd 8.1 names an instruction for it
@@ -63,20 +79,20 @@ struct Separation {
   T inverse_r;  ///< 1/r [1/m]; a large number at r = 0, so that times d it is 0 there
 
   explicit Separation(const Vec3<T>& displacement) : d(displacement) {
-    // The least number a float can hold, not a length: it stands for r^2 of coincident particles only.
-    const T r2 = max(squared_length(d), T(std::numeric_limits<Real>::min()));
+    // Next to the least number a float can hold, not a length: it stands for r^2 of coincident particles only. Four
+    // times as much, as halves of the least number are slow to compute with.
+    const T r2 = max(squared_length(d), T(4 * std::numeric_limits<Real>::min()));
     inverse_r = inverse_sqrt(r2);
     r = r2 * inverse_r;
   }
 };
 
-// --- sums over neighbours: start, add where the mask holds, add up the lanes --------------------------------------
+// --- sums over neighbours: start, add, add where the mask holds -----------------------------------------------------
 
 inline void set_zero(Real& a) { a = 0; }
 inline void set_zero(Lanes& a) { a = Lanes(Real(0)); }
 inline void add_where(const LaneMask& mask, Lanes& sum, const Lanes& a) { sum += select(mask, a, Lanes(Real(0))); }
 inline void add(Real& sum, Real a) { sum += a; }
-inline Real add_up(const Lanes& a) { return xsimd::hadd(a); }
 
 template <class T>
 void set_zero(Vec3<T>& a) {
@@ -86,7 +102,6 @@ inline void add_where(const LaneMask& mask, Vec3<Lanes>& sum, const Vec3<Lanes>&
   add_where(mask, sum.x, a.x), add_where(mask, sum.y, a.y), add_where(mask, sum.z, a.z);
 }
 inline void add(Vec3r& sum, const Vec3r& a) { sum += a; }
-inline Vec3r add_up(const Vec3<Lanes>& a) { return {add_up(a.x), add_up(a.y), add_up(a.z)}; }
 
 template <class... T>
 void set_zero(std::tuple<T...>& a) {
@@ -102,11 +117,6 @@ void add(std::tuple<T...>& sum, const std::tuple<T...>& a) {
   [&]<std::size_t... k>(std::index_sequence<k...>) { (add(std::get<k>(sum), std::get<k>(a)), ...); }
   (std::index_sequence_for<T...>{});
 }
-template <class... T>
-auto add_up(const std::tuple<T...>& a) {
-  return std::apply([](const auto&... each) { return std::tuple{add_up(each)...}; }, a);
-}
-
 // --- loads --------------------------------------------------------------------------------------------------------
 
 /// Lane numbers 0, 1, 2 ...
@@ -116,7 +126,7 @@ inline Lanes lane_numbers() {
   return Lanes::load_aligned(numbers);
 }
 
-/// lane_count indices from a list of int32.
+/// lane_count numbers from a list of int32.
 inline IndexLanes load_indices(const std::int32_t* list) {
   if constexpr (std::same_as<LaneIndex, std::int32_t>) {
     return IndexLanes::load_unaligned(list);
@@ -127,17 +137,43 @@ inline IndexLanes load_indices(const std::int32_t* list) {
   }
 }
 
+#if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
+/// A full mask and a register set to zero for a gather to go into: else the gather waits for whoever wrote the register
+/// before, which serialises the turns of a loop. GCC drops the zero where it can tell that the mask is full, hence the
+/// empty statement.
+struct GatherTarget {
+  __m512 zero = _mm512_setzero_ps();
+  __mmask16 all = 0xffff;
+  GatherTarget() { asm("" : "+v"(zero), "+k"(all)); }
+};
+#endif
+
 /// The numbers data[j] of the lanes' indices. xsimd 8.1 picks its element-by-element gather even where the processor
 /// has one (a pass then takes twice as long), so the instruction is named here.
 inline Lanes gather(const Real* data, const IndexLanes& j) {
 #if defined(SESSILE_DOUBLE)
   return Lanes::gather(data, j);
 #elif defined(__AVX512F__)
-  return _mm512_i32gather_ps(j, data, sizeof(Real));
+  const GatherTarget to;
+  return _mm512_mask_i32gather_ps(to.zero, to.all, j, data, sizeof(Real));
 #elif defined(__AVX2__)
   return _mm256_i32gather_ps(data, j, sizeof(Real));
 #else
   return Lanes::gather(data, j);
+#endif
+}
+
+/// Writes the entries list[j] of the lanes' indices to `to`, one after the other.
+inline void copy_entries(const std::int32_t* list, const IndexLanes& j, std::int32_t* to) {
+#if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
+  const GatherTarget into;
+  const __m512i entries =
+      _mm512_mask_i32gather_epi32(_mm512_castps_si512(into.zero), into.all, j, list, sizeof(std::int32_t));
+  _mm512_storeu_si512(to, entries);
+#else
+  alignas(64) LaneIndex at[lane_count];
+  j.store_aligned(at);
+  for (int k = 0; k < lane_count; ++k) to[k] = list[at[k]];
 #endif
 }
 
@@ -160,13 +196,14 @@ inline int store_where(const LaneMask& mask, const std::int32_t* from, std::int3
 #endif
 }
 
-/// Read-only numbers, one per particle: [int] gives one, [IndexLanes] gathers a pack. Where all are known to be the
-/// same, as masses mostly are, a pack needs no gather.
+/// Read-only numbers, one per particle: [int] gives one, [Group] those of its particles, [IndexLanes] gathers a pack.
+/// Where all are known to be the same, as masses mostly are, a pack needs no gather.
 struct View1 {
   const Real* data = nullptr;
   bool all_same = false;
 
   Real operator[](int i) const { return data[i]; }
+  Lanes operator[](Group i) const { return Lanes::load_unaligned(data + i.first); }
   Lanes operator[](const IndexLanes& j) const { return all_same ? Lanes(data[0]) : gather(data, j); }
 };
 
@@ -177,16 +214,33 @@ struct View3 {
   const Real* z = nullptr;
 
   Vec3r operator[](int i) const { return {x[i], y[i], z[i]}; }
+  Vec3<Lanes> operator[](Group i) const {
+    return {Lanes::load_unaligned(x + i.first), Lanes::load_unaligned(y + i.first), Lanes::load_unaligned(z + i.first)};
+  }
   Vec3<Lanes> operator[](const IndexLanes& j) const { return {gather(x, j), gather(y, j), gather(z, j)}; }
 };
 
-/// The same value in every lane of whatever a law computes with: numbers for an int index, packs for IndexLanes.
-template <NeighborIndex J>
-using LaneOf = std::conditional_t<std::same_as<J, int>, Real, Lanes>;
+/// Where a pass puts its numbers, one per particle.
+struct Out1 {
+  Real* data = nullptr;
 
-template <class T>
-Vec3<T> spread(const Vec3r& a) {
-  return {T(a.x), T(a.y), T(a.z)};
-}
+  void set(int i, Real value) const { data[i] = value; }
+  void set(Group i, const Lanes& value) const { value.store_unaligned(data + i.first); }
+};
+
+/// Where a pass puts its vectors, one per particle.
+struct Out3 {
+  Out1 x, y, z;
+
+  template <ParticleIndex I>
+  void set(I i, const Vec3<LaneOf<I>>& value) const {
+    x.set(i, value.x), y.set(i, value.y), z.set(i, value.z);
+  }
+  template <ParticleIndex I>
+  void add(I i, const Vec3<LaneOf<I>>& value) const {
+    const View3 before{x.data, y.data, z.data};
+    set(i, before[i] + value);
+  }
+};
 
 }  // namespace sessile

@@ -15,11 +15,11 @@ struct TensionLaw {
   Real gamma;
   Real rho0;
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& j) const {
-    using T = LaneOf<J>;
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& j) const {
+    using T = LaneOf<I>;
     const auto pair = s.to_fluid(i, j);
-    const T K = T(Real(2)) / (T(s.rho[i]) + s.rho[j]);
+    const T K = T(Real(2)) / (s.rho[i] + s.rho[j]);
     const T pull = T(rho0) * s.m[j] * cohesion.value(pair.r);
     return T(-gamma) * K * (pull * unit_vector(pair) + normal_difference(s, i, j, pair));
   }
@@ -31,9 +31,9 @@ struct AdhesionLaw {
   AkinciAdhesionSpline adhesion;
   Real beta_rho0;
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& b) const {
-    using T = LaneOf<J>;
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& b) const {
+    using T = LaneOf<I>;
     const auto pair = s.to_wall(i, b);
     return T(-beta_rho0) * s.walls.adhesion[b] * s.walls.psi[b] * adhesion.value(pair.r) * unit_vector(pair);
   }

@@ -13,11 +13,11 @@ struct TensionLaw {
   Real kappa;  // over dx^3 [1/s^2]
   Real dx;
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& j) const {
-    using T = LaneOf<J>;
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& j) const {
+    using T = LaneOf<I>;
     const auto pair = s.to_fluid(i, j);
-    return T(-kappa / s.m[i]) * s.m[j] * s.W.value(max(pair.r, T(dx))) * pair.d;
+    return T(-kappa) / s.m[i] * s.m[j] * s.W.value(max(pair.r, T(dx))) * pair.d;
   }
 };
 

@@ -12,13 +12,16 @@ struct CurvatureLaw {
   Real sigma_over_rho0;  // [m^3/s^2]
   Real threshold;
 
-  Vec3r operator()(int i) const {
-    const Vec3r n = s.normal[i];
-    const Real size = length(n);
-    if (!(size > threshold)) return {};
-    const Real around = s.near.sum(i, [&](auto j) { return s.m[j] / s.rho[j] * s.W.laplacian(s.to_fluid(i, j)); });
-    const Real laplacian = s.m[i] / s.rho[i] * s.W.laplacian_at_zero() + around;
-    return -sigma_over_rho0 / s.rho[i] * laplacian / size * n;
+  template <ParticleIndex I>
+  Vec3<LaneOf<I>> operator()(I i) const {
+    using T = LaneOf<I>;
+    const auto n = s.normal[i];
+    const T size = length(n);
+    const auto at_surface = size > T(threshold);
+    if (!any(at_surface)) return {T(Real(0)), T(Real(0)), T(Real(0))};
+    const T around = s.near.sum(i, [&](auto j) { return s.m[j] / s.rho[j] * s.W.laplacian(s.to_fluid(i, j)); });
+    const T laplacian = s.m[i] / s.rho[i] * s.W.laplacian_at_zero() + around;
+    return select(at_surface, T(-sigma_over_rho0) / s.rho[i] * laplacian / size, T(Real(0))) * n;
   }
 };
 
@@ -26,10 +29,8 @@ struct CurvatureLaw {
 
 void Csf::add_acceleration(const StepView& s, Array3& acceleration) const {
   const CurvatureLaw law{s, static_cast<Real>(strength / s.units.rest_density), static_cast<Real>(threshold)};
-  for_each(s.n, [&](int i) {
-    const auto place = static_cast<std::size_t>(i);
-    acceleration.set(place, acceleration[place] + law(i));
-  });
+  const Out3 a = out(acceleration);
+  s.for_each_particle([&](auto i) { a.add(i, law(i)); });
 }
 
 double Csf::tension(const Units&) const { return strength; }

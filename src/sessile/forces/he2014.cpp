@@ -10,7 +10,8 @@ namespace {
 struct Colour {
   StepView s;
 
-  Real operator()(int i) const {
+  template <ParticleIndex I>
+  auto operator()(I i) const {
     return s.m[i] / s.rho[i] * s.W.at_zero() + s.near.sum(i, [&](auto j) {
       return s.m[j] / s.rho[j] * s.W.value(s.to_fluid(i, j).r);
     }) + s.near_walls.sum(i, [&](auto b) { return s.walls.psi[b] * s.W.value(s.to_wall(i, b).r); });
@@ -23,10 +24,11 @@ struct Steepness {
   Real h;
   View1 c;
 
-  Real operator()(int i) const {
+  template <ParticleIndex I>
+  auto operator()(I i) const {
     const auto fluid = s.near.sum(i, [&](auto j) { return s.m[j] / s.rho[j] * c[j] * s.W.gradient(s.to_fluid(i, j)); });
     const auto walls = s.near_walls.sum(i, [&](auto b) { return s.walls.psi[b] * s.W.gradient(s.to_wall(i, b)); });
-    return squared_length(h / c[i] * fluid + h * walls);
+    return squared_length(LaneOf<I>(h) / c[i] * fluid + h * walls);
   }
 };
 
@@ -37,11 +39,11 @@ struct TensionLaw {
   Real air;    // p_air/rho0 [m^2/s^2]
   View1 steepness;
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& j) const {
-    using T = LaneOf<J>;
-    const T stress = T(kappa) * (T(steepness[i]) + steepness[j]) + T(air);
-    return T(1 / s.rho[i]) * s.m[j] / s.rho[j] * stress * s.W.gradient(s.to_fluid(i, j));
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& j) const {
+    using T = LaneOf<I>;
+    const T stress = T(kappa) * (steepness[i] + steepness[j]) + T(air);
+    return T(Real(1)) / s.rho[i] * s.m[j] / s.rho[j] * stress * s.W.gradient(s.to_fluid(i, j));
   }
 };
 
@@ -50,10 +52,10 @@ struct AirLaw {
   StepView s;
   Real air;  // p_air/rho0 [m^2/s^2]
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& b) const {
-    using T = LaneOf<J>;
-    return T(air / s.rho[i]) * s.walls.psi[b] * s.W.gradient(s.to_wall(i, b));
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& b) const {
+    using T = LaneOf<I>;
+    return T(air) / s.rho[i] * s.walls.psi[b] * s.W.gradient(s.to_wall(i, b));
   }
 };
 
@@ -63,9 +65,10 @@ AirLaw air_law(const He2014& model, const StepView& s) {
 
 /// law(i) of every particle.
 template <class Law>
-Array<Real> of_each(std::size_t n, const Law& law) {
-  Array<Real> all(n);
-  for_each(n, [&](int i) { all[static_cast<std::size_t>(i)] = law(i); });
+Array<Real> of_each(const StepView& s, const Law& law) {
+  Array<Real> all(s.n);
+  const Out1 each = out(all);
+  s.for_each_particle([&](auto i) { each.set(i, law(i)); });
   return all;
 }
 
@@ -73,8 +76,8 @@ Array<Real> of_each(std::size_t n, const Law& law) {
 
 void He2014::add_acceleration(const StepView& s, Array3& acceleration) const {
   const double h = s.units.support_radius;
-  const Array<Real> colour = of_each(s.n, Colour{s});
-  const Array<Real> steepness = of_each(s.n, Steepness{s, static_cast<Real>(h), view(colour)});
+  const Array<Real> colour = of_each(s, Colour{s});
+  const Array<Real> steepness = of_each(s, Steepness{s, static_cast<Real>(h), view(colour)});
   const AirLaw air = air_law(*this, s);
   const auto kappa = static_cast<Real>(strength / (4 * h * h * s.units.rest_density));
   add_sums(s, TensionLaw{s, kappa, air.air, view(steepness)}, air, acceleration);

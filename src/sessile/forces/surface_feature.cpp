@@ -24,15 +24,15 @@ struct TensionLaw {
   Real beta;
   Direction reading;
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& j) const {
-    using T = LaneOf<J>;
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& j) const {
+    using T = LaneOf<I>;
     const auto pair = s.to_fluid(i, j);
-    const T mj = s.m[j], rho_j = s.rho[j];
-    const T K = T(Real(2)) / (T(s.rho[i] * s.rho[i]) + rho_j * rho_j);
-    const T mean_mass = T(Real(0.5)) * (T(Real(1)) + mj * T(1 / s.m[i]));
-    return -K * (T(alpha_rho0) * mj * cohesion.value(pair.r) * pair_direction(reading, pair) +
-                 T(beta) * mean_mass * normal_difference(s, i, j, pair));
+    const T mi = s.m[i], mj = s.m[j], rho_i = s.rho[i], rho_j = s.rho[j];
+    const T half_K_over_mass = T(Real(1)) / (mi * (rho_i * rho_i + rho_j * rho_j));
+    const T pull = T(2 * alpha_rho0) * mi * mj * cohesion.value(pair.r);
+    return -half_K_over_mass *
+           (pull * pair_direction(reading, pair) + T(beta) * (mi + mj) * normal_difference(s, i, j, pair));
   }
 };
 
@@ -43,9 +43,9 @@ struct AdhesionLaw {
   Real eta_rho0;
   Direction reading;
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& b) const {
-    using T = LaneOf<J>;
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& b) const {
+    using T = LaneOf<I>;
     const auto pair = s.to_wall(i, b);
     return T(-eta_rho0) * s.walls.adhesion[b] * s.walls.psi[b] * adhesion.value(pair.r) * pair_direction(reading, pair);
   }

@@ -28,10 +28,10 @@ struct TensionLaw {
   Real strength;  // s/(rho0 dx^3) [m/s^2]
   PairForce force;
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& j) const {
-    using T = LaneOf<J>;
-    return T(strength / s.m[i]) * force(s.to_fluid(i, j));
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& j) const {
+    using T = LaneOf<I>;
+    return T(strength) / s.m[i] * force(s.to_fluid(i, j));
   }
 };
 
@@ -40,10 +40,10 @@ struct AdhesionLaw {
   Real strength;  // s_w/(rho0 dx^3) [m/s^2]
   PairForce force;
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& b) const {
-    using T = LaneOf<J>;
-    return T(strength / s.m[i]) * s.walls.adhesion[b] * s.walls.psi[b] * force(s.to_wall(i, b));
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& b) const {
+    using T = LaneOf<I>;
+    return T(strength) / s.m[i] * s.walls.adhesion[b] * s.walls.psi[b] * force(s.to_wall(i, b));
   }
 };
 

@@ -49,18 +49,17 @@ struct Part {
 };
 
 /// Fills `distances` with the squares |x_i - x_j|^2 [m^2] for j in `row`; returns the least, or infinity.
-Real squared_distances(const Cloud& cloud, std::size_t i, const Array3& others, std::span<const std::int32_t> row,
+Real squared_distances(const Cloud& cloud, std::size_t i, const Array3& others, const Neighbors& row,
                        Array<Real>& distances) {
   if (distances.size() < row.size()) distances.resize(row.size());
   const Vec3r xi = cloud.position[i];
   const Space space = cloud.space;
   const Real *x = others.x.data(), *y = others.y.data(), *z = others.z.data();
-  const std::int32_t* index = row.data();
   Real* result = distances.data();
   Real least = std::numeric_limits<Real>::infinity();
   const std::size_t count = row.size();
   for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t j = index[k];
+    const std::int32_t j = row[k];
     result[k] = squared_length(space.displacement(xi, {x[j], y[j], z[j]}));
     least = std::min(least, result[k]);
   }
@@ -68,7 +67,7 @@ Real squared_distances(const Cloud& cloud, std::size_t i, const Array3& others, 
 }
 
 /// Keeps those of `row` that come before `self` and are nearer than the link distance; returns how many.
-std::size_t keep_linked(std::span<const std::int32_t> row, const Array<Real>& distances, Real link2, std::int32_t self,
+std::size_t keep_linked(const Neighbors& row, const Array<Real>& distances, Real link2, std::int32_t self,
                         Array<std::int32_t>& links) {
   if (links.size() < row.size()) links.resize(row.size());
   std::size_t kept = 0;

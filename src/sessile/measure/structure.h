@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "sessile/core/array.h"
 #include "sessile/core/space.h"
@@ -12,16 +11,16 @@ namespace sessile {
 
 /// Read-only rows of neighbour indices, one per particle, in any order; a NeighborList is one.
 struct NeighborRows {
-  const std::int32_t* const* firsts = nullptr;
+  const NeighborGroup* groups = nullptr;
   const std::int32_t* counts = nullptr;
+  std::size_t lanes = 1;  ///< particles of a group
 
   NeighborRows() = default;
-  NeighborRows(const std::int32_t* const* first_of, const std::int32_t* count_of)
-      : firsts(first_of), counts(count_of) {}
-  NeighborRows(const NeighborList& list) : firsts(list.firsts()), counts(list.counts()) {}
+  NeighborRows(const NeighborGroup* one_each, const std::int32_t* count_of) : groups(one_each), counts(count_of) {}
+  NeighborRows(const NeighborList& list) : groups(list.groups()), counts(list.counts()), lanes(list.lanes()) {}
 
-  std::span<const std::int32_t> operator[](std::size_t i) const {
-    return {firsts[i], static_cast<std::size_t>(counts[i])};
+  Neighbors operator[](std::size_t i) const {
+    return {groups[i / lanes].first + i % lanes, static_cast<std::size_t>(counts[i]), lanes};
   }
 };
 

@@ -16,11 +16,6 @@ namespace {
 // cells apart, whatever the rounding of their cells' numbers.
 constexpr double cell_margin = 1 + 1e-6;
 
-// Cells beyond this are not told apart; no float position in metres reaches it with cells above 1e-20 m.
-constexpr double farthest_cell = 4e18;
-
-std::int64_t wrap(std::int64_t cell, std::int64_t ring) { return ring == 0 ? cell : ((cell % ring) + ring) % ring; }
-
 int bits_for(std::int64_t count) { return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count) + 1)); }
 
 }  // namespace
@@ -38,15 +33,6 @@ GridShape GridShape::make(double support_radius, const Vec3d& origin, const Vec3
   return {{axis(origin.x, period.x), axis(origin.y, period.y), axis(origin.z, period.z)}};
 }
 
-std::array<std::int64_t, 3> GridShape::cell_of(const Vec3r& point) const {
-  const auto along = [](const GridAxis& axis, Real x) {
-    const double place = std::floor((static_cast<double>(x) - axis.origin) * axis.inverse_cell);
-    const auto cell = static_cast<std::int64_t>(std::clamp(place, -farthest_cell, farthest_cell));
-    return axis.ring == 0 ? cell : wrap(cell, axis.ring);
-  };
-  return {along(axes[0], point.x), along(axes[1], point.y), along(axes[2], point.z)};
-}
-
 std::int64_t Grid::AxisNumbers::number_at_or_after(std::int64_t cell) const {
   if (occupied.empty()) return std::clamp(cell - first + 1, std::int64_t{1}, count + 1);
   const auto found = std::lower_bound(occupied.begin(), occupied.end(), cell);
@@ -57,6 +43,11 @@ std::int64_t Grid::AxisNumbers::number_at_or_before(std::int64_t cell) const {
   if (occupied.empty()) return std::clamp(cell - first + 1, std::int64_t{0}, count);
   const auto found = std::upper_bound(occupied.begin(), occupied.end(), cell);
   return found == occupied.begin() ? 0 : numbers[static_cast<std::size_t>(found - occupied.begin()) - 1];
+}
+
+std::int64_t Grid::AxisNumbers::cell(std::int64_t number) const {
+  if (occupied.empty()) return first + number - 1;
+  return occupied[static_cast<std::size_t>(std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin())];
 }
 
 void Grid::AxisNumbers::close_gaps(std::vector<std::int64_t> cells) {
@@ -155,6 +146,19 @@ void Grid::build(const Array3& points, const GridShape& shape) {
   });
 }
 
+std::size_t Grid::cell_at(std::int32_t place) const {
+  return static_cast<std::size_t>(std::upper_bound(begins_.begin(), begins_.end(), place) - begins_.begin()) - 1;
+}
+
+std::array<std::int64_t, 3> Grid::cell(std::size_t k) const {
+  const auto number = [](std::uint64_t bits, const AxisNumbers& axis) {
+    return axis.cell(static_cast<std::int64_t>(bits & ((std::uint64_t{1} << axis.bits) - 1)));
+  };
+  const std::uint64_t key = keys_[k];
+  return {number(key, axes_[0]), number(key >> axes_[0].bits, axes_[1]),
+          number(key >> (axes_[0].bits + axes_[1].bits), axes_[2])};
+}
+
 std::size_t Grid::seek(std::uint64_t key, std::size_t hint) const {
   // Gallop from the hint: successive searches in a row of cells are a few places apart.
   const auto at = [&](std::size_t place) { return keys_.begin() + static_cast<std::ptrdiff_t>(place); };
@@ -173,44 +177,60 @@ std::size_t Grid::seek(std::uint64_t key, std::size_t hint) const {
   return static_cast<std::size_t>(std::lower_bound(at(low), at(high), key) - keys_.begin());
 }
 
+void Grid::find_rows(const std::array<std::int64_t, 3>& cell, Cursor& cursor) const {
+  // A ring of one or two cells holds each neighbouring cell once, not three times.
+  const auto seen_before = [](std::int64_t ring, int offset) {
+    return (ring == 1 && offset != 0) || (ring == 2 && offset == 1);
+  };
+  for (int k = 0; k < 9; ++k) {
+    Cursor::Row& row = cursor.rows[static_cast<std::size_t>(k)];
+    row.end = row.begin;
+    const int dy = k % 3 - 1, dz = k / 3 - 1;
+    if (seen_before(shape_.axes[1].ring, dy) || seen_before(shape_.axes[2].ring, dz)) continue;
+    const std::int64_t y = shape_.axes[1].wrap(cell[1] + dy), z = shape_.axes[2].wrap(cell[2] + dz);
+    const std::int64_t ny = axes_[1].number_at_or_after(y), nz = axes_[2].number_at_or_after(z);
+    if (ny != axes_[1].number_at_or_before(y) || nz != axes_[2].number_at_or_before(z)) continue;
+    row.begin = seek(key(0, ny, nz), row.begin);
+    row.end = seek(key(axes_[0].count + 1, ny, nz), row.begin);
+    row.at = row.begin;
+  }
+  cursor.row_of = {cell[1], cell[2]};
+  cursor.fresh = false;
+}
+
 int Grid::around(const std::array<std::int64_t, 3>& cell, Cursor& cursor, std::span<PlaceRange, 18> ranges) const {
   if (keys_.empty()) return 0;
-  const std::array<std::int64_t, 3> ring{shape_.axes[0].ring, shape_.axes[1].ring, shape_.axes[2].ring};
+  if (cursor.fresh || cursor.row_of[0] != cell[1] || cursor.row_of[1] != cell[2]) find_rows(cell, cursor);
   // Stretches of cells along x: one, or two where a periodic face cuts the row.
+  const std::int64_t ring = shape_.axes[0].ring;
   std::array<std::array<std::int64_t, 2>, 2> stretches{{{cell[0] - 1, cell[0] + 1}, {0, -1}}};
   int stretch_count = 1;
-  if (ring[0] > 0 && ring[0] <= 3) {
-    stretches[0] = {0, ring[0] - 1};
-  } else if (ring[0] > 0 && cell[0] == 0) {
-    stretches = {{{0, 1}, {ring[0] - 1, ring[0] - 1}}};
+  if (ring > 0 && ring <= 3) {
+    stretches[0] = {0, ring - 1};
+  } else if (ring > 0 && cell[0] == 0) {
+    stretches = {{{0, 1}, {ring - 1, ring - 1}}};
     stretch_count = 2;
-  } else if (ring[0] > 0 && cell[0] == ring[0] - 1) {
+  } else if (ring > 0 && cell[0] == ring - 1) {
     stretches = {{{cell[0] - 1, cell[0]}, {0, 0}}};
     stretch_count = 2;
   }
-  // A ring of one or two cells holds each neighbouring cell once, not three times.
-  const auto seen_before = [](std::int64_t around_ring, int offset) {
-    return (around_ring == 1 && offset != 0) || (around_ring == 2 && offset == 1);
-  };
-
   int found = 0;
-  for (int row = 0; row < 9; ++row) {
-    const int dy = row % 3 - 1, dz = row / 3 - 1;
-    if (seen_before(ring[1], dy) || seen_before(ring[2], dz)) continue;
-    const std::int64_t y = wrap(cell[1] + dy, ring[1]);
-    const std::int64_t z = wrap(cell[2] + dz, ring[2]);
-    const std::int64_t ny = axes_[1].number_at_or_after(y), nz = axes_[2].number_at_or_after(z);
-    if (ny != axes_[1].number_at_or_before(y) || nz != axes_[2].number_at_or_before(z)) continue;
-    for (int s = 0; s < stretch_count; ++s) {
-      const std::int64_t low = axes_[0].number_at_or_after(stretches[static_cast<std::size_t>(s)][0]);
-      const std::int64_t high = axes_[0].number_at_or_before(stretches[static_cast<std::size_t>(s)][1]);
-      if (low > high) continue;
-      const std::size_t begin = seek(key(low, ny, nz), cursor.hints[static_cast<std::size_t>(row)]);
-      std::size_t end = begin;
-      while (end < keys_.size() && keys_[end] <= key(high, ny, nz)) ++end;
-      cursor.hints[static_cast<std::size_t>(row)] = begin;
-      if (begin == end) continue;
-      ranges[static_cast<std::size_t>(found++)] = {begins_[begin], begins_[end]};
+  const std::uint64_t along_x = (std::uint64_t{1} << axes_[0].bits) - 1;
+  for (int s = 0; s < stretch_count; ++s) {
+    const auto& stretch = stretches[static_cast<std::size_t>(s)];
+    const auto low = static_cast<std::uint64_t>(axes_[0].number_at_or_after(stretch[0]));
+    const auto high = static_cast<std::uint64_t>(axes_[0].number_at_or_before(stretch[1]));
+    if (low > high) continue;
+    for (Cursor::Row& row : cursor.rows) {
+      if (row.begin == row.end) continue;
+      const auto x = [&](std::size_t k) { return keys_[k] & along_x; };
+      if (row.at > row.begin && x(row.at - 1) >= low) row.at = row.begin;
+      // Asked in the grid's order, the next cells are a place or two on.
+      for (int step = 0; step < 4 && row.at < row.end && x(row.at) < low; ++step) ++row.at;
+      if (row.at < row.end && x(row.at) < low) row.at = seek((keys_[row.at] & ~along_x) | low, row.at);
+      std::size_t end = row.at;
+      while (end < row.end && x(end) <= high) ++end;
+      if (row.at < end) ranges[static_cast<std::size_t>(found++)] = {begins_[row.at], begins_[end]};
     }
   }
   return found;

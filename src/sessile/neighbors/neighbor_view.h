@@ -1,49 +1,54 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "sessile/core/lanes.h"
+#include "sessile/core/parallel.h"
 #include "sessile/neighbors/neighbors.h"
 
 namespace sessile {
 
-/// A neighbour list as a pair law sees it: sums over the neighbours of a particle.
+/// Calls kernel(Group) for groups that hold the particles 0 ... n-1, on all threads.
+template <class Kernel>
+void for_each_group(std::size_t n, const Kernel& kernel) {
+  static_assert(block_size % lane_count == 0, "a group lies in one block");
+  for_each_block(n, [&](std::ptrdiff_t, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto i = begin; i < end; i += lane_count) kernel(Group{static_cast<int>(i)});
+  });
+}
+
+/// A neighbour list as a pair law sees it: sums over the neighbours of a particle, or of a group of them, each in the
+/// order of its list.
 struct NeighborView {
-  const std::int32_t* const* first = nullptr;
+  const NeighborGroup* groups = nullptr;
   const std::int32_t* count = nullptr;
-  bool one_lane = false;  ///< one neighbour at a time, as plain numbers: the reference that tests hold lanes against
 
   NeighborView() = default;
-  explicit NeighborView(const NeighborList& list) : first(list.firsts()), count(list.counts()) {}
+  explicit NeighborView(const NeighborList& list) : groups(list.groups()), count(list.counts()) {}
 
-  bool none(int i) const { return count[i] == 0; }
+  /// Neighbour k of particle i.
+  int at(int i, int k) const { return groups[i / lane_count].first[k * lane_count + i % lane_count]; }
 
-  /// Sum over the neighbours of i of law(j), which returns a number, a Vec3 or a tuple of such, in the lanes of j.
-  /// Lists are padded to whole packs, so that the last one can be gathered too; what the padding yields is masked.
+  /// Sum of law(j) over the neighbours j of i; law returns a number, a Vec3 or a tuple of such.
   template <class Law>
   auto sum(int i, const Law& law) const {
-    return one_lane ? sum_one_by_one(i, law) : sum_lanes(i, law);
-  }
-
- private:
-  template <class Law>
-  auto sum_lanes(int i, const Law& law) const {
-    decltype(law(IndexLanes{})) total;
-    set_zero(total);
-    const std::int32_t* list = first[i];
-    const Lanes numbers = lane_numbers();
-    for (int done = 0, n = count[i]; done < n; done += lane_count) {
-      add_where(numbers < Lanes(static_cast<Real>(n - done)), total, law(load_indices(list + done)));
-    }
-    return add_up(total);
-  }
-
-  template <class Law>
-  auto sum_one_by_one(int i, const Law& law) const {
     decltype(law(0)) total;
     set_zero(total);
-    for (int k = 0; k < count[i]; ++k) add(total, law(static_cast<int>(first[i][k])));
+    for (int k = 0; k < count[i]; ++k) add(total, law(at(i, k)));
+    return total;
+  }
+
+  /// The same for each particle of a group, in its lane. Lists that have ended are masked.
+  template <class Law>
+  auto sum(Group i, const Law& law) const {
+    decltype(law(IndexLanes{})) total;
+    set_zero(total);
+    const NeighborGroup& group = groups[i.first / lane_count];
+    const Lanes counts = xsimd::to_float(load_indices(count + i.first));
+    const std::int32_t* list = group.first;
+    for (int k = 0; k < group.longest; ++k, list += lane_count) {
+      add_where(Lanes(static_cast<Real>(k)) < counts, total, law(load_indices(list)));
+    }
     return total;
   }
 };

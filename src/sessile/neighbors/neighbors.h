@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <iterator>
 #include <vector>
 
 #include "sessile/core/array.h"
@@ -11,26 +11,86 @@
 
 namespace sessile {
 
+/// The neighbours of one particle, in the order in which they are summed over.
+class Neighbors {
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = std::int32_t;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const std::int32_t*;
+    using reference = const std::int32_t&;
+
+    Iterator() = default;
+    Iterator(const Neighbors& row, std::size_t k) : first_(row.first_), stride_(row.stride_), k_(k) {}
+    reference operator*() const { return first_[k_ * stride_]; }
+    Iterator& operator++() {
+      ++k_;
+      return *this;
+    }
+    Iterator operator++(int) {
+      Iterator before = *this;
+      ++k_;
+      return before;
+    }
+    bool operator==(const Iterator& other) const { return k_ == other.k_; }
+
+   private:
+    const std::int32_t* first_ = nullptr;
+    std::size_t stride_ = 1, k_ = 0;
+  };
+
+  Neighbors(const std::int32_t* first, std::size_t count, std::size_t stride)
+      : first_(first), count_(count), stride_(stride) {}
+
+  std::size_t size() const { return count_; }
+  bool empty() const { return count_ == 0; }
+  std::int32_t operator[](std::size_t k) const { return first_[k * stride_]; }
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, count_}; }
+
+ private:
+  const std::int32_t* first_;
+  std::size_t count_, stride_;
+};
+
+/// Lists of as many successive particles as there are lanes, side by side: neighbour k of the group's particle q stands
+/// at first[k * lanes + q]. So one load gives a neighbour to each particle of the group. Lists shorter than `longest`
+/// go on with some valid index.
+struct NeighborGroup {
+  const std::int32_t* first = nullptr;
+  std::int32_t longest = 0;
+};
+
+/// Points in the order of their grid.
+struct SortedPoints {
+  const Array3& position;
+  const Grid& grid;
+};
+
 /// For each particle of one set the indices of the particles of another (or the same) set closer than the support
-/// radius, strictly; itself left out. Built anew once a step. Lists are padded to whole packs of lanes.
+/// radius, strictly; itself left out. Built anew once a step.
 class NeighborList {
  public:
-  std::size_t size() const { return first_.size(); }
-  std::span<const std::int32_t> operator[](std::size_t i) const {
-    return {first_[i], static_cast<std::size_t>(count_[i])};
-  }
+  std::size_t size() const { return size_; }
   int count(std::size_t i) const { return count_[i]; }
+  Neighbors operator[](std::size_t i) const {
+    return {groups_[i / lanes_].first + i % lanes_, static_cast<std::size_t>(count_[i]), lanes_};
+  }
 
-  /// Finds, for every point of `points`, the points of `others` with |x_i - x_j| < radius. `grid` holds `others`.
-  /// When both are the same set, `same` leaves each point out of its own list. `others` is in the order of `grid`.
-  void build(const Array3& points, const Array3& others, const Grid& grid, const Space& space, Real radius, bool same);
+  /// Finds, for every one of `points`, those of `others` with |x_i - x_j| < radius, which is at most a cell of their
+  /// grids. When both are the same set, each point is left out of its own list.
+  void build(const SortedPoints& points, const SortedPoints& others, const Space& space, Real radius);
 
-  const std::int32_t* const* firsts() const { return first_.data(); }
-  const std::int32_t* counts() const { return count_.data(); }
+  const NeighborGroup* groups() const { return groups_.data(); }
+  const std::int32_t* counts() const { return count_.data(); }  ///< 0 for places of the last group past the end
+  std::size_t lanes() const { return lanes_; }                  ///< particles of a group
   std::size_t bytes() const;
 
  private:
-  Array<const std::int32_t*> first_;
+  std::size_t size_ = 0, lanes_ = 1;
+  Array<NeighborGroup> groups_;
   Array<std::int32_t> count_;
   std::vector<Array<std::int32_t>> blocks_;  // each block of particles owns the memory of its lists
 };

@@ -13,6 +13,8 @@ namespace sessile {
 
 inline View1 view(const Array<Real>& a) { return {a.data()}; }
 inline View3 view(const Array3& a) { return {a.x.data(), a.y.data(), a.z.data()}; }
+inline Out1 out(Array<Real>& a) { return {a.data()}; }
+inline Out3 out(Array3& a) { return {{a.x.data()}, {a.y.data()}, {a.z.data()}}; }
 
 /// What a pair law may read: particles, boundary particles and neighbours at one moment. Internal; costs nothing to
 /// copy. Masses and psi are in units of rho0 dx^3, densities of rho0, kernels of 1/dx^3, pressures p / rho0 [m^2/s^2].
@@ -33,6 +35,7 @@ struct StepView {
   NeighborView near;        // fluid around a fluid particle
   NeighborView near_walls;  // boundary particles around a fluid particle
   Samples walls;
+  bool one_lane = false;  // one particle at a time, as plain numbers: the reference that tests hold lanes against
 
   StepView() = default;
   StepView(const Units& in, const Space& where, const Particles& particles, const Walls& solids,
@@ -50,13 +53,23 @@ struct StepView {
               view(solids.viscosity)} {}
 
   /// How i lies to a fluid particle, and to a boundary particle.
-  template <NeighborIndex J>
-  auto to_fluid(int i, const J& j) const {
-    return Separation<LaneOf<J>>(space.displacement(spread<LaneOf<J>>(x[i]), x[j]));
+  template <ParticleIndex I, NeighborIndex J>
+  auto to_fluid(I i, const J& j) const {
+    return Separation<LaneOf<I>>(space.displacement(x[i], x[j]));
   }
-  template <NeighborIndex J>
-  auto to_wall(int i, const J& b) const {
-    return Separation<LaneOf<J>>(space.displacement(spread<LaneOf<J>>(x[i]), walls.x[b]));
+  template <ParticleIndex I, NeighborIndex J>
+  auto to_wall(I i, const J& b) const {
+    return Separation<LaneOf<I>>(space.displacement(x[i], walls.x[b]));
+  }
+
+  /// Calls kernel(i) for all particles, on all threads: i is a Group, or an int where one lane is wanted.
+  template <class Kernel>
+  void for_each_particle(const Kernel& kernel) const {
+    if (one_lane) {
+      for_each(n, kernel);
+    } else {
+      for_each_group(n, kernel);
+    }
   }
 };
 

@@ -1,7 +1,5 @@
 #include "sessile/particles/particles.h"
 
-#include <cstring>
-
 #include "sessile/core/parallel.h"
 
 namespace sessile {
@@ -21,12 +19,14 @@ void Particles::add(const Vec3r& x, const Vec3r& v, Real m, std::int64_t number)
 
 void Particles::reorder(std::span<const std::int32_t> order) {
   for_each_field([&]<class T>(Array<T>& array) {
-    reorder_scratch_.resize(order.size() * sizeof(T));
-    T* sorted = reinterpret_cast<T*>(reorder_scratch_.data());
-    for_each(order.size(),
-             [&](int k) { sorted[k] = array[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])]; });
-    array.resize(order.size());
-    for_each(order.size(), [&](int k) { array[static_cast<std::size_t>(k)] = sorted[k]; });
+    auto& sorted = std::get<Array<T>>(reorder_scratch_);
+    sorted.resize(order.size());
+    for_each_block(order.size(), [&](std::ptrdiff_t, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+        sorted[k] = array[static_cast<std::size_t>(order[k])];
+      }
+    });
+    array.swap(sorted);
   });
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 
 #include "sessile/core/array.h"
 
@@ -43,7 +44,7 @@ struct Particles {
   void reorder(std::span<const std::int32_t> order);
 
  private:
-  Array<std::byte> reorder_scratch_;
+  std::tuple<Array<Real>, Array<std::int64_t>> reorder_scratch_;  // one for each type of a field
 };
 
 }  // namespace sessile

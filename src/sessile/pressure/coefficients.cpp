@@ -14,22 +14,21 @@ struct CoefficientsKernel {
   StepView s;
   DensityRate rate;  // of v*
   Real dt;
-  Real* advected;
-  Real* diagonal;
+  Out1 advected, diagonal;
 
-  void operator()(int i) const {
-    advected[i] = s.rho[i] + dt * rate(i);
-    const auto [g_fluid, squares] = s.near.sum(i, [&](auto j) {
-      const auto pair = s.to_fluid(i, j);
-      const auto gradient = s.W.gradient(pair);
-      return std::tuple{s.m[j] * gradient, s.m[j] * squared_length(gradient)};
+  template <ParticleIndex I>
+  void operator()(I i) const {
+    const auto [rate_fluid, g_fluid, squares] = s.near.sum(i, [&](auto j) {
+      const auto gradient = s.W.gradient(s.to_fluid(i, j));
+      return std::tuple{rate.fluid(i, j, gradient), s.m[j] * gradient, s.m[j] * squared_length(gradient)};
     });
-    const auto g_walls = s.near_walls.sum(i, [&](auto b) {
-      const auto pair = s.to_wall(i, b);
-      return s.walls.psi[b] * s.W.gradient(pair);
+    const auto [rate_walls, g_walls] = s.near_walls.sum(i, [&](auto b) {
+      const auto gradient = s.W.gradient(s.to_wall(i, b));
+      return std::tuple{rate.wall(i, b, gradient), s.walls.psi[b] * gradient};
     });
-    const Real step_over_density = dt / s.rho[i];
-    diagonal[i] = -step_over_density * step_over_density * (squared_length(g_fluid + g_walls) + s.m[i] * squares);
+    advected.set(i, s.rho[i] + dt * (rate_fluid + rate_walls));
+    const LaneOf<I> step_over_density = LaneOf<I>(dt) / s.rho[i];
+    diagonal.set(i, -step_over_density * step_over_density * (squared_length(g_fluid + g_walls) + s.m[i] * squares));
   }
 };
 
@@ -38,8 +37,8 @@ struct CoefficientsKernel {
 void pressure_coefficients(const StepView& s, const Array3& v, double dt, PressureScratch& scratch) {
   scratch.advected.resize(s.n);
   scratch.diagonal.resize(s.n);
-  for_each(s.n, CoefficientsKernel{
-                    s, {s, view(v), true}, static_cast<Real>(dt), scratch.advected.data(), scratch.diagonal.data()});
+  s.for_each_particle(
+      CoefficientsKernel{s, {s, view(v), true}, static_cast<Real>(dt), out(scratch.advected), out(scratch.diagonal)});
 }
 
 void advect_density_to_positions(const StepView& s, const Array3& v, double dt, PressureScratch& scratch) {
@@ -63,7 +62,8 @@ void density_change(const StepView& s, const Array3& acceleration, double dt, Ar
   change.resize(s.n);
   const DensityRate rate{s, view(acceleration), false};
   const auto dt_squared = static_cast<Real>(dt * dt);
-  for_each(s.n, [&](int i) { change[static_cast<std::size_t>(i)] = dt_squared * rate(i); });
+  const Out1 each = out(change);
+  s.for_each_particle([&](auto i) { each.set(i, dt_squared * rate(i)); });
 }
 
 }  // namespace sessile

@@ -16,20 +16,20 @@ struct DensityRate {
   View3 u;
   bool walls_move;
 
-  Real operator()(int i) const {
-    const auto ui = u[i];
-    const Real fluid = s.near.sum(i, [&](auto j) {
-      using T = LaneOf<decltype(j)>;
-      const auto pair = s.to_fluid(i, j);
-      return s.m[j] * dot(spread<T>(ui) - u[j], s.W.gradient(pair));
-    });
-    const Real walls = s.near_walls.sum(i, [&](auto b) {
-      using T = LaneOf<decltype(b)>;
-      const auto pair = s.to_wall(i, b);
-      const auto relative = walls_move ? spread<T>(ui) - s.walls.v[b] : spread<T>(ui);
-      return s.walls.psi[b] * dot(relative, s.W.gradient(pair));
-    });
-    return fluid + walls;
+  template <ParticleIndex I>
+  LaneOf<I> operator()(I i) const {
+    return s.near.sum(i, [&](auto j) { return fluid(i, j, s.W.gradient(s.to_fluid(i, j))); }) +
+           s.near_walls.sum(i, [&](auto b) { return wall(i, b, s.W.gradient(s.to_wall(i, b))); });
+  }
+
+  /// What one pair adds, its gradient at hand.
+  template <ParticleIndex I, NeighborIndex J>
+  LaneOf<I> fluid(I i, const J& j, const Vec3<LaneOf<I>>& gradient) const {
+    return s.m[j] * dot(u[i] - u[j], gradient);
+  }
+  template <ParticleIndex I, NeighborIndex J>
+  LaneOf<I> wall(I i, const J& b, const Vec3<LaneOf<I>>& gradient) const {
+    return s.walls.psi[b] * dot(walls_move ? u[i] - s.walls.v[b] : u[i], gradient);
   }
 };
 

@@ -21,15 +21,14 @@ PressureResult iterate(const IterationLimits& limits, const StepView& s, double 
                        Array<Real>& pressure, PressureScratch& scratch) {
   PressureResult result;
   scratch.next.resize(s.n);
-  const auto dt_squared = static_cast<Real>(dt * dt);
   while (true) {
     pressure_acceleration(s, pressure, scratch.stress, scratch.acceleration);
-    const DensityRate rate{s, view(scratch.acceleration), false};
+    density_change(s, scratch.acceleration, dt, scratch.change);
     measure_error(
         s.n,
         [&](int i) {
           const auto k = static_cast<std::size_t>(i);
-          const Real predicted = scratch.advected[k] + dt_squared * rate(i);
+          const Real predicted = scratch.advected[k] + scratch.change[k];
           const Real before = result.iterations == 0 ? pressure[k] : scratch.next[k];
           scratch.next[k] =
               scratch.diagonal[k] < 0 ? improved(pressure[k], scratch.diagonal[k], predicted, before) : Real(0);

@@ -11,11 +11,10 @@ struct FluidLaw {
   StepView s;
   View1 stress;  // p_i/rho_i^2
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& j) const {
-    using T = LaneOf<J>;
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& j) const {
     const auto pair = s.to_fluid(i, j);
-    return -s.m[j] * (T(stress[i]) + stress[j]) * s.W.gradient(pair);
+    return -s.m[j] * (stress[i] + stress[j]) * s.W.gradient(pair);
   }
 };
 
@@ -23,22 +22,22 @@ struct WallLaw {
   StepView s;
   View1 stress;
 
-  template <NeighborIndex J>
-  auto operator()(int i, const J& b) const {
-    using T = LaneOf<J>;
+  template <ParticleIndex I, NeighborIndex J>
+  auto operator()(I i, const J& b) const {
     const auto pair = s.to_wall(i, b);
-    return T(-stress[i]) * s.walls.psi[b] * s.W.gradient(pair);
+    return -stress[i] * s.walls.psi[b] * s.W.gradient(pair);
   }
 };
 
 struct PressureKernel {
   FluidLaw fluid;
   WallLaw wall;
-  Array3& a;
+  Out3 a;
 
-  void operator()(int i) const {
-    a.set(static_cast<std::size_t>(i), fluid.s.near.sum(i, [&](auto j) { return fluid(i, j); }) +
-                                           fluid.s.near_walls.sum(i, [&](auto b) { return wall(i, b); }));
+  template <ParticleIndex I>
+  void operator()(I i) const {
+    a.set(i, fluid.s.near.sum(i, [&](auto j) { return fluid(i, j); }) +
+                 fluid.s.near_walls.sum(i, [&](auto b) { return wall(i, b); }));
   }
 };
 
@@ -50,7 +49,7 @@ void pressure_acceleration(const StepView& s, const Array<Real>& pressure, Array
   for_each(s.n, [&](int i) {
     stress[static_cast<std::size_t>(i)] = pressure[static_cast<std::size_t>(i)] / (s.rho[i] * s.rho[i]);
   });
-  for_each(s.n, PressureKernel{{s, view(stress)}, {s, view(stress)}, acceleration});
+  s.for_each_particle(PressureKernel{{s, view(stress)}, {s, view(stress)}, out(acceleration)});
 }
 
 void add_pressure_reaction(const StepView& s, const Array<Real>& stress, const Walls& walls,

@@ -22,6 +22,7 @@ struct PressureScratch {
   Array<Real> advected;       ///< advected density over rest density
   Array<Real> diagonal;       ///< a_ii
   Array<Real> next;           ///< pressures that an iteration makes
+  Array<Real> change;         ///< density that the pressure acceleration adds over dt, over rest density
   Array3 predicted_position;  ///< x + dt v [m]
 };
 

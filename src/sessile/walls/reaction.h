@@ -21,7 +21,7 @@ void add_reaction(const StepView& s, const Walls& walls, const Law& law, std::sp
     for (auto i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
       const double mass = static_cast<double>(s.m[i]) * unit;
       for (int k = 0; k < s.near_walls.count[i]; ++k) {
-        const int b = s.near_walls.first[i][k];
+        const int b = s.near_walls.at(i, k);
         const auto sample = static_cast<std::size_t>(b);
         const auto solid = static_cast<std::size_t>(walls.solid[sample]);
         const Vec3d force = -mass * vec_cast<double>(law(i, b));

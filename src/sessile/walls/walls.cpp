@@ -43,15 +43,14 @@ Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const Gri
 
   const CubicSpline W(scene.support_radius(), scene.spacing);
   NeighborList list;
-  list.build(walls.position, walls.position, grid, space, static_cast<Real>(scene.support_radius()), true);
+  list.build({walls.position, grid}, {walls.position, grid}, space, static_cast<Real>(scene.support_radius()));
   const NeighborView near(list);
   const View3 x{walls.position.x.data(), walls.position.y.data(), walls.position.z.data()};
   walls.psi.resize(n);
-  for_each(n, [&](int b) {
-    const Real number_density = W.at_zero() + near.sum(b, [&](auto c) {
-      return W.value(length(space.displacement(spread<LaneOf<decltype(c)>>(x[b]), x[c])));
-    });
-    walls.psi[static_cast<std::size_t>(b)] = 1 / number_density;
+  const Out1 psi{walls.psi.data()};
+  for_each_group(n, [&](Group b) {
+    const Lanes others = near.sum(b, [&](auto c) { return W.value(length(space.displacement(x[b], x[c]))); });
+    psi.set(b, Lanes(Real(1)) / (Lanes(W.at_zero()) + others));
   });
   return walls;
 }
