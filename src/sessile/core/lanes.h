@@ -163,13 +163,15 @@ inline Lanes gather(const Real* data, const IndexLanes& j) {
 #endif
 }
 
-/// Writes the entries list[j] of the lanes' indices to `to`, one after the other.
-inline void copy_entries(const std::int32_t* list, const IndexLanes& j, std::int32_t* to) {
+/// Writes the entries list[j] of the lanes' indices to `to`, one after the other; `to` is aligned to a pack of them.
+/// Past the caches where the processor can: whole lists are long, and nobody reads them soon. finish_streams() must
+/// follow before another thread does.
+inline void stream_entries(const std::int32_t* list, const IndexLanes& j, std::int32_t* to) {
 #if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
   const GatherTarget into;
   const __m512i entries =
       _mm512_mask_i32gather_epi32(_mm512_castps_si512(into.zero), into.all, j, list, sizeof(std::int32_t));
-  _mm512_storeu_si512(to, entries);
+  _mm512_stream_si512(reinterpret_cast<__m512i*>(to), entries);
 #else
   alignas(64) LaneIndex at[lane_count];
   j.store_aligned(at);
@@ -193,6 +195,13 @@ inline int store_where(const LaneMask& mask, const std::int32_t* from, std::int3
     count += holds[k];
   }
   return count;
+#endif
+}
+
+/// Makes what stream_entries wrote visible to other threads.
+inline void finish_streams() {
+#if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
+  _mm_sfence();
 #endif
 }
 

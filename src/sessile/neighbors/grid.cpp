@@ -64,29 +64,29 @@ void Grid::AxisNumbers::close_gaps(std::vector<std::int64_t> cells) {
 }
 
 void Grid::number_axes(const Array3& points) {
+  // A cell never comes before that of a point further down, so the outermost points lie in the outermost cells.
   struct Bounds {
-    std::array<std::int64_t, 3> low, high;
+    Vec3r low, high;
   };
-  constexpr auto least = std::numeric_limits<std::int64_t>::min();
-  constexpr auto most = std::numeric_limits<std::int64_t>::max();
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const Bounds bounds = reduce(
-      points.size(), Bounds{{most, most, most}, {least, least, least}},
+      points.size(), Bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}},
       [&](int i) {
-        const auto cell = shape_.cell_of(points[static_cast<std::size_t>(i)]);
-        return Bounds{cell, cell};
+        const Vec3r x = points[static_cast<std::size_t>(i)];
+        return Bounds{x, x};
       },
-      [](Bounds a, const Bounds& b) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          a.low[k] = std::min(a.low[k], b.low[k]);
-          a.high[k] = std::max(a.high[k], b.high[k]);
-        }
-        return a;
+      [](const Bounds& a, const Bounds& b) {
+        using std::min, std::max;
+        return Bounds{{min(a.low.x, b.low.x), min(a.low.y, b.low.y), min(a.low.z, b.low.z)},
+                      {max(a.high.x, b.high.x), max(a.high.y, b.high.y), max(a.high.z, b.high.z)}};
       });
+  const auto low = shape_.cell_of(bounds.low), high = shape_.cell_of(bounds.high);
   const auto total_bits = [&] { return axes_[0].bits + axes_[1].bits + axes_[2].bits; };
   for (std::size_t k = 0; k < 3; ++k) {
+    const std::int64_t ring = shape_.axes[k].ring;
     axes_[k] = {};
-    axes_[k].first = bounds.low[k];
-    axes_[k].count = bounds.high[k] - bounds.low[k] + 1;
+    axes_[k].first = ring > 0 ? 0 : low[k];
+    axes_[k].count = ring > 0 ? ring : high[k] - low[k] + 1;
     axes_[k].bits = bits_for(axes_[k].count);
   }
   if (total_bits() < 64) return;
@@ -115,9 +115,7 @@ void Grid::build(const Array3& points, const GridShape& shape) {
   for_each(points.size(), [&](int i) {
     const auto place = static_cast<std::size_t>(i);
     const auto cell = shape_.cell_of(points[place]);
-    items_[place] = {key(axes_[0].number_at_or_after(cell[0]), axes_[1].number_at_or_after(cell[1]),
-                         axes_[2].number_at_or_after(cell[2])),
-                     i};
+    items_[place] = {key(axes_[0].number(cell[0]), axes_[1].number(cell[1]), axes_[2].number(cell[2])), i};
   });
   radix_sort(items_, items_scratch_, axes_[0].bits + axes_[1].bits + axes_[2].bits);
 

@@ -33,7 +33,7 @@ struct GridAxis {
   /// above 1e-20 m.
   std::int64_t cell_of(Real x) const {
     const double place = std::floor((static_cast<double>(x) - origin) * inverse_cell);
-    return wrap(static_cast<std::int64_t>(std::clamp(place, -4e18, 4e18)));
+    return wrap(static_cast<std::int64_t>(std::min(std::max(place, -4e18), 4e18)));
   }
 };
 
@@ -98,6 +98,9 @@ class Grid {
     std::vector<std::int64_t> occupied;  // only with gaps closed up: the occupied cells, ascending ...
     std::vector<std::int64_t> numbers;   // ... and their numbers
 
+    std::int64_t number(std::int64_t cell) const {  // of an occupied cell
+      return occupied.empty() ? cell - first + 1 : number_at_or_after(cell);
+    }
     std::int64_t number_at_or_after(std::int64_t cell) const;   // of the first cell >= cell, or count + 1
     std::int64_t number_at_or_before(std::int64_t cell) const;  // of the last cell <= cell, or 0
     std::int64_t cell(std::int64_t number) const;               // that has the number

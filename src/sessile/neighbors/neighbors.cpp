@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "sessile/core/lanes.h"
 #include "sessile/core/parallel.h"
@@ -13,26 +12,29 @@ namespace {
 /// The points in the cells around one cell, side by side: every point of the cell is held against all of them.
 class Candidates {
  public:
-  void collect(const Array3& points, std::span<const PlaceRange> ranges) {
-    ranges_ = ranges;
-    std::size_t n = 0;
-    for (const PlaceRange& range : ranges) n += static_cast<std::size_t>(range.end - range.begin);
-    count_ = static_cast<int>(n);
-    if (x_.size() < n + lane_count) {
-      for (auto* array : {&x_, &y_, &z_}) array->resize(2 * n + lane_count);
-      place_.resize(2 * n + lane_count);
+  /// `own` is where the points of the cell themselves lie, if they are candidates too.
+  void collect(const Array3& points, std::span<const PlaceRange> ranges, const PlaceRange& own) {
+    std::size_t room = lane_count;
+    for (const PlaceRange& range : ranges) room += static_cast<std::size_t>(range.end - range.begin);
+    if (place_.size() < room) {
+      for (auto* array : {&x_, &y_, &z_}) array->resize(2 * room);
+      place_.resize(2 * room);
     }
-    Real* to = x_.data();
+    count_ = 0;
+    slot_of_place_0_ = std::numeric_limits<std::int32_t>::max();
     for (const PlaceRange& range : ranges) {
-      const auto at = to - x_.data();
-      copy(points.x.data(), range, x_.data() + at);
-      copy(points.y.data(), range, y_.data() + at);
-      copy(points.z.data(), range, z_.data() + at);
-      std::iota(place_.data() + at, place_.data() + at + (range.end - range.begin), range.begin);
-      to += range.end - range.begin;
+      if (range.begin <= own.begin && own.begin < range.end) slot_of_place_0_ = count_ - range.begin;
+      // Whole packs: what lies past the range's end is written over by the next one.
+      for (std::int32_t j = range.begin, k = count_; j < range.end; j += lane_count, k += lane_count) {
+        Lanes::load_unaligned(points.x.data() + j).store_unaligned(x_.data() + k);
+        Lanes::load_unaligned(points.y.data() + j).store_unaligned(y_.data() + k);
+        Lanes::load_unaligned(points.z.data() + j).store_unaligned(z_.data() + k);
+        for (int lane = 0; lane < lane_count; ++lane) place_[static_cast<std::size_t>(k + lane)] = j + lane;
+      }
+      count_ += range.end - range.begin;
     }
     // What fills up the last pack is close to nothing.
-    std::fill(to, to + lane_count, std::numeric_limits<Real>::infinity());
+    Lanes(std::numeric_limits<Real>::infinity()).store_unaligned(x_.data() + count_);
   }
 
   int count() const { return count_; }
@@ -41,39 +43,23 @@ class Candidates {
   int close_to(const Vec3r& point, const Space& space, Real squared_radius, std::int32_t self,
                std::int32_t* list) const {
     const Vec3<Lanes> xi{Lanes(point.x), Lanes(point.y), Lanes(point.z)};
-    const Lanes numbers = lane_numbers();
-    const int own = slot_of(self);
+    const Lanes own(
+        static_cast<Real>(slot_of_place_0_ == std::numeric_limits<std::int32_t>::max() ? -1 : self + slot_of_place_0_));
+    Lanes slot = lane_numbers();
     int found = 0;
     for (int k = 0; k < count_; k += lane_count) {
       const Vec3<Lanes> xj{Lanes::load_unaligned(x_.data() + k), Lanes::load_unaligned(y_.data() + k),
                            Lanes::load_unaligned(z_.data() + k)};
       const Lanes r2 = squared_length(space.displacement(xi, xj));
-      const LaneMask close = (r2 < Lanes(squared_radius)) & (numbers != Lanes(static_cast<Real>(own - k)));
-      found += store_where(close, place_.data() + k, list + found);
+      found += store_where((r2 < Lanes(squared_radius)) & (slot != own), place_.data() + k, list + found);
+      slot += Lanes(Real(lane_count));
     }
     return found;
   }
 
  private:
-  /// May read and write up to a pack past the range's end.
-  static void copy(const Real* from, const PlaceRange& range, Real* to) {
-    for (std::int32_t j = range.begin; j < range.end; j += lane_count, to += lane_count) {
-      Lanes::load_unaligned(from + j).store_unaligned(to);
-    }
-  }
-
-  /// Where a place stands among the candidates, or -1.
-  int slot_of(std::int32_t place) const {
-    int before = 0;
-    for (const PlaceRange& range : ranges_) {
-      if (place >= range.begin && place < range.end) return before + (place - range.begin);
-      before += range.end - range.begin;
-    }
-    return -1;
-  }
-
-  std::span<const PlaceRange> ranges_;
   int count_ = 0;
+  std::int32_t slot_of_place_0_ = 0;  // slot of a point of the cell, less its place; greatest where there are none
   Array<Real> x_, y_, z_;
   Array<std::int32_t> place_;
 };
@@ -109,7 +95,7 @@ class Found {
     const IndexLanes last = max(load_indices(count_) - IndexLanes(1), IndexLanes(0));
     const std::int32_t rows = longest();
     for (std::int32_t k = 0; k < rows; ++k, to += lane_count) {
-      copy_entries(memory_.data(), start + min(IndexLanes(k), last), to);
+      stream_entries(memory_.data(), start + min(IndexLanes(k), last), to);
     }
   }
 
@@ -151,10 +137,12 @@ void NeighborList::build(const SortedPoints& points, const SortedPoints& others,
         }
         if (i == next_cell) {
           const int range_count = others.grid.around(points.grid.cell(cell), cursor, ranges);
-          candidates.collect(others.position, {ranges.data(), static_cast<std::size_t>(range_count)});
-          next_cell = static_cast<std::size_t>(points.grid.places(cell++).end);
+          const PlaceRange places = points.grid.places(cell++);
+          candidates.collect(others.position, {ranges.data(), static_cast<std::size_t>(range_count)},
+                             same ? places : PlaceRange{-1, -1});
+          next_cell = static_cast<std::size_t>(places.end);
         }
-        found.add(q, candidates, points.position[i], space, radius * radius, same ? static_cast<std::int32_t>(i) : -1);
+        found.add(q, candidates, points.position[i], space, radius * radius, static_cast<std::int32_t>(i));
       }
       for (int q = 0; q < lane_count; ++q) count_[first + static_cast<std::size_t>(q)] = found.count(q);
       const std::size_t needed = static_cast<std::size_t>(found.longest()) * lane_count;
@@ -163,6 +151,7 @@ void NeighborList::build(const SortedPoints& points, const SortedPoints& others,
       groups_[first / lane_count].longest = found.longest();
       used += needed;
     }
+    finish_streams();
     // The memory may have moved while it grew: only now do addresses hold.
     std::size_t start = 0;
     for (auto first = static_cast<std::size_t>(begin); first < last; first += lane_count) {
