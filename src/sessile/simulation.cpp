@@ -70,7 +70,8 @@ void Simulation::look_around() {
   }
   const Stopwatch watch(stage_times_.density);
   const auto& masses = particles_.mass;
-  equal_masses_ = std::all_of(masses.begin(), masses.end(), [&](Real m) { return m == masses[0]; });
+  equal_masses_ =
+      sum(masses.size(), [&](int i) { return masses[static_cast<std::size_t>(i)] == masses[0] ? 0.0 : 1.0; }) == 0;
   compute_density(view(), density_);
   const bool wanted = std::any_of(scene_.forces.begin(), scene_.forces.end(), [](const Force& force) {
     return std::visit([](const auto& model) { return model.uses_normals; }, force);
@@ -87,7 +88,9 @@ void Simulation::accelerate() {
   const Stopwatch watch(stage_times_.forces);
   const StepView s = view();
   walls_.forces.assign(walls_.forces.size(), {});
-  acceleration_.assign(s.n, vec_cast<Real>(scene_.gravity));
+  acceleration_.resize(s.n);
+  const auto gravity = vec_cast<Real>(scene_.gravity);
+  for_each(s.n, [&](int i) { acceleration_.set(static_cast<std::size_t>(i), gravity); });
   add_viscosity(s, scene_.fluid.viscosity, acceleration_);
   add_viscosity_reaction(s, walls_, walls_.forces);
   for (const Force& force : scene_.forces) {
