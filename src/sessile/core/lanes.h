@@ -50,6 +50,9 @@ inline Lanes inverse_sqrt(const Lanes& a) {
 #elif defined(__AVX2__)
   const Lanes estimate = _mm256_rsqrt_ps(a);
   return estimate * (Lanes(1.5f) - Lanes(0.5f) * a * estimate * estimate);
+#elif defined(__SSE2__)
+  const Lanes estimate = _mm_rsqrt_ps(a);
+  return estimate * (Lanes(1.5f) - Lanes(0.5f) * a * estimate * estimate);
 #else
   return Lanes(Real(1)) / sqrt(a);
 #endif
@@ -136,6 +139,10 @@ inline Lanes gather(const Real* data, const IndexLanes& j) {
   return _mm512_i32gather_ps(j, data, sizeof(Real));
 #elif defined(__AVX2__)
   return _mm256_i32gather_ps(data, j, sizeof(Real));
+#elif defined(__SSE2__)
+  alignas(16) std::int32_t at[4];
+  j.store_aligned(at);
+  return _mm_setr_ps(data[at[0]], data[at[1]], data[at[2]], data[at[3]]);
 #else
   return Lanes::gather(data, j);
 #endif
