@@ -1,5 +1,9 @@
 #pragma once
 
+#ifdef SESSILE_FOR_EVERY_PROCESSOR
+#error "what touches lanes is compiled for each instruction set: src/sessile/CMakeLists.txt takes this file for shared"
+#endif
+
 #include <cmath>
 #include <concepts>
 #include <cstddef>
