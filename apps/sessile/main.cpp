@@ -1,9 +1,6 @@
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <cstdio>
-#include <cstdlib>
 #include <new>
 #include <string>
 #include <string_view>
@@ -14,19 +11,9 @@
 #include "sessile/core/error.h"
 #include "sessile/scene/spelling.h"
 #include "sessile/version.h"
+#include "start.h"
 
 namespace {
-
-/// Starts the program anew with OpenMP threads that soon sleep when they wait, unless the user has chosen otherwise. By
-/// default they spin for long: beside other work on the same cores, a step then takes up to 60 times longer
-/// (docs/decisions/threads-wait-passively.md). The runtime reads its environment before main, hence the new start.
-void let_threads_sleep(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  // Some microseconds of spinning bridge the gap between two loops of a step; GCC's runtime heeds the count.
-  const bool set = setenv("OMP_WAIT_POLICY", "passive", 0) == 0 && setenv("GOMP_SPINCOUNT", "1000", 0) == 0;
-  if (set) execv("/proc/self/exe", argv);
-  // Where that does not work, the program runs all the same.
-}
 
 /// What to say of a first word that is no command: CLI11 only says that a command is missing.
 std::string unknown_command(const CLI::App& program, int argc, char** argv) {
@@ -42,8 +29,8 @@ std::string unknown_command(const CLI::App& program, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  let_threads_sleep(argv);
   using namespace sessile;
+  if (!app::start(argv)) return app::bad_input;
   CLI::App program("Liquids at the scale where surface tension and adhesion rule.", "sessile");
   program.set_version_flag("--version", "sessile " + std::string(version()));
   program.require_subcommand(1);

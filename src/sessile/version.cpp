@@ -19,6 +19,7 @@ BuildInfo build_info() {
 #else
   info.type = "debug";
 #endif
+  info.isa = SESSILE_ISA;
   info.simd = xsimd::default_arch::name();
   info.lanes = lane_count;
   info.real_bits = 8 * static_cast<int>(sizeof(Real));

@@ -13,7 +13,8 @@ struct BuildInfo {
   std::string version;
   std::string compiler;  ///< name and version
   std::string type;      ///< "optimised" or "debug"
-  std::string simd;      ///< instruction set of the kernels
+  std::string isa;       ///< instruction set that a step is compiled for, as -march names it: "x86-64-v3"
+  std::string simd;      ///< the part of it that lanes use: "fma3+avx2"
   int lanes = 0;         ///< numbers computed at once
   int real_bits = 0;     ///< 32 or 64
 };

@@ -1,5 +1,6 @@
 """Reads frames as far as a test must, without VTK: their particles, arrays and time."""
 import base64
+import struct
 import xml.etree.ElementTree
 import zlib
 
@@ -62,3 +63,15 @@ def read_ply(path):
             stride += sizes[words[1]]
     assert len(data) == end + count * stride, f"{path}: {len(data)} bytes"
     return count
+
+
+def read_positions(path):
+    """The positions in a PLY file as {id: (x, y, z)}."""
+    data = path.read_bytes()
+    head, _, body = data.partition(b"end_header\n")
+    properties = [line.split()[1:] for line in head.decode().splitlines() if line.startswith("property")]
+    letters = {"float": "f", "double": "d", "int": "i", "uint": "I", "uchar": "B"}
+    names = [name for _, name in properties]
+    columns = [names.index(name) for name in ("id", "x", "y", "z")]
+    rows = struct.iter_unpack("<" + "".join(letters[kind] for kind, _ in properties), body)
+    return {row[columns[0]]: tuple(row[k] for k in columns[1:]) for row in rows}

@@ -10,6 +10,7 @@ import unittest
 
 PROGRAM = os.environ.get("SESSILE", "")
 VERSION = os.environ.get("SESSILE_VERSION", "")
+VARIANTS = os.environ.get("SESSILE_VARIANTS", "") == "1"  # whether the program was built for several instruction sets
 
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
@@ -48,9 +49,9 @@ class CliTest(unittest.TestCase):
     def environment(self):
         return {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": "1", "LC_ALL": "C"}
 
-    def call(self, *arguments, code=DONE, before="", timeout=60):
+    def call(self, *arguments, code=DONE, before="", timeout=60, program=PROGRAM):
         """Runs the program, expects its exit code, returns (standard output, standard error). `before` is shell."""
-        command = [PROGRAM, *map(str, arguments)]
+        command = [program, *map(str, arguments)]
         if before:
             command = ["bash", "-c", before + '; exec "$@"', "bash", *command]
         result = subprocess.run(command, cwd=self.folder, env=self.environment(), timeout=timeout, text=True,
@@ -83,4 +84,4 @@ class CliTest(unittest.TestCase):
         return sorted(path.name for path in (self.folder / folder).iterdir())
 
 
-__all__ = ["CliTest", "DONE", "FAILED", "BAD_INPUT", "INTERRUPTED", "VERSION", "signal", "tiny", "unittest"]
+__all__ = ["CliTest", "DONE", "FAILED", "BAD_INPUT", "INTERRUPTED", "PROGRAM", "VARIANTS", "VERSION", "signal", "tiny", "unittest"]

@@ -77,7 +77,8 @@ class Info(CliTest):
         out, err = self.call("info")
         self.assertEqual(err, "")
         self.assertRegex(out, r"\Aversion    \d+\.\d+\.\d+\ncompiler   \S.*\nbuild      .*, (32|64)-bit numbers\n"
-                              r"SIMD       \S+.*, \d+ lanes\nthreads    1\n\Z")
+                              r"SIMD       \S+ \(\S+\), \d+ lanes\n"
+                              r"variants   \S.*\nthreads    1\n\Z")
 
 
 class Models(CliTest):

@@ -138,6 +138,7 @@ std::string comparison_json(const Comparison& comparison) {
       .add("version", build.version)
       .add("compiler", build.compiler)
       .add("processor", processor_name())
+      .add("isa", build.isa)
       .add("simd", build.simd)
       .add("real_bits", std::int64_t{build.real_bits})
       .add("threads", std::int64_t{comparison.threads})

@@ -12,6 +12,7 @@
 #include "sessile/core/error.h"
 #include "sessile/output/check.h"
 #include "sessile/scene/spelling.h"
+#include "start.h"
 
 namespace sessile::app {
 namespace {
@@ -91,10 +92,9 @@ std::vector<fs::path> method_folders(const fs::path& scene_file) {
     folders.push_back(at / "methods");
     if (at == at.parent_path()) break;
   }
-  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  if (!program.empty()) {
-    folders.push_back((program / "../share/sessile/methods").lexically_normal());  // installed
-    folders.push_back((program / "../../../scenes/methods").lexically_normal());   // where it was built
+  if (const fs::path place = installed_in(); !place.empty()) {
+    folders.push_back(place / "share/sessile/methods");
+    folders.push_back((place / "../../scenes/methods").lexically_normal());  // where it was built
   }
   return folders;
 }

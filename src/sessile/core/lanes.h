@@ -1,5 +1,9 @@
 #pragma once
 
+#ifdef SESSILE_FOR_EVERY_PROCESSOR
+#error "what touches lanes is compiled for each instruction set: src/sessile/CMakeLists.txt takes this file for shared"
+#endif
+
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -65,6 +69,9 @@ inline Lanes inverse_sqrt(const Lanes& a) {
   return estimate * (Lanes(1.5f) - Lanes(0.5f) * a * estimate * estimate);
 #elif defined(__AVX2__)
   const Lanes estimate = _mm256_rsqrt_ps(a);
+  return estimate * (Lanes(1.5f) - Lanes(0.5f) * a * estimate * estimate);
+#elif defined(__SSE2__)
+  const Lanes estimate = _mm_rsqrt_ps(a);
   return estimate * (Lanes(1.5f) - Lanes(0.5f) * a * estimate * estimate);
 #else
   return Lanes(Real(1)) / sqrt(a);
@@ -158,6 +165,10 @@ inline Lanes gather(const Real* data, const IndexLanes& j) {
   return _mm512_mask_i32gather_ps(to.zero, to.all, j, data, sizeof(Real));
 #elif defined(__AVX2__)
   return _mm256_i32gather_ps(data, j, sizeof(Real));
+#elif defined(__SSE2__)
+  alignas(16) std::int32_t at[4];
+  j.store_aligned(at);
+  return _mm_setr_ps(data[at[0]], data[at[1]], data[at[2]], data[at[3]]);
 #else
   return Lanes::gather(data, j);
 #endif
