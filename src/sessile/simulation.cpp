@@ -69,6 +69,8 @@ void Simulation::look_around() {
     wall_neighbors_.build(fluid, samples, space_, h);
   }
   const Stopwatch watch(stage_times_.density);
+  for (auto* pairs : {&position_pairs_, &pairs_}) pairs->resize(2 * particles_.size());
+  pair_up(sessile::view(particles_.position), particles_.size(), position_pairs_.data());
   const auto& masses = particles_.mass;
   equal_masses_ =
       sum(masses.size(), [&](int i) { return masses[static_cast<std::size_t>(i)] == masses[0] ? 0.0 : 1.0; }) == 0;
@@ -283,6 +285,8 @@ StepView Simulation::view() const {
   s.rho = sessile::view(density_);
   s.normal = sessile::view(normal_);
   s.m.all_same = equal_masses_;
+  s.x.xy = position_pairs_.data();
+  s.pairs = pairs_.data();
   return s;
 }
 

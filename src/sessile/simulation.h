@@ -133,6 +133,8 @@ class Simulation {
   bool equal_masses_ = false;
   Array<Real> density_;
   Array3 normal_, acceleration_;
+  Array<Real> position_pairs_;  // x and y of each position in a row: what every pass gathers
+  mutable Array<Real> pairs_;   // the same of the field that the pass at hand gathers besides
   PressureScratch pressure_;
   StepReport last_step_;
   Totals totals_;

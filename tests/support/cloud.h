@@ -22,6 +22,8 @@ struct Cloud {
   Grid grid, wall_grid;
   NeighborList near, near_walls;
   Array<Real> density;
+  Array<Real> position_pairs;
+  mutable Array<Real> pairs;
   Array3 normal;
 
   void add(const Vec3d& x, const Vec3d& v = {}, double mass = 1) {
@@ -54,6 +56,9 @@ struct Cloud {
     sort(walls.position.x), sort(walls.position.y), sort(walls.position.z), sort(walls.psi), sort(walls.solid);
     near.build({particles.position, grid}, {particles.position, grid}, space, h);
     near_walls.build({particles.position, grid}, {walls.position, wall_grid}, space, h);
+    position_pairs.resize(2 * particles.size());
+    pairs.resize(2 * particles.size());
+    pair_up(sessile::view(particles.position), particles.size(), position_pairs.data());
     compute_density(view(one_lane), density);
     compute_normals(view(one_lane), normal);
   }
@@ -62,6 +67,8 @@ struct Cloud {
     StepView s(units, space, particles, walls, near, near_walls);
     s.rho = sessile::view(density);
     s.normal = sessile::view(normal);
+    s.x.xy = position_pairs.data();
+    s.pairs = pairs.data();
     s.one_lane = one_lane;
     return s;
   }

@@ -145,14 +145,14 @@ inline IndexLanes load_indices(const std::int32_t* list) {
 }
 
 #if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
-/// A full mask and a register set to zero for a gather to go into: else the gather waits for whoever wrote the register
-/// before, which serialises the turns of a loop. GCC drops the zero where it can tell that the mask is full, hence the
-/// empty statement.
-struct GatherTarget {
-  __m512 zero = _mm512_setzero_ps();
+/// A full mask that the compiler does not know to be full. With it a gather goes into a register set to zero; with a
+/// known one GCC 12 leaves the zero out, the gather waits for whoever wrote the register before, and so the turns of a
+/// loop wait for each other.
+inline __mmask16 all_lanes() {
   __mmask16 all = 0xffff;
-  GatherTarget() { asm("" : "+v"(zero), "+k"(all)); }
-};
+  asm("" : "+k"(all));
+  return all;
+}
 #endif
 
 /// The numbers data[j] of the lanes' indices. xsimd 8.1 picks its element-by-element gather even where the processor
@@ -161,8 +161,7 @@ inline Lanes gather(const Real* data, const IndexLanes& j) {
 #if defined(SESSILE_DOUBLE)
   return Lanes::gather(data, j);
 #elif defined(__AVX512F__)
-  const GatherTarget to;
-  return _mm512_mask_i32gather_ps(to.zero, to.all, j, data, sizeof(Real));
+  return _mm512_mask_i32gather_ps(_mm512_setzero_ps(), all_lanes(), j, data, sizeof(Real));
 #elif defined(__AVX2__)
   return _mm256_i32gather_ps(data, j, sizeof(Real));
 #elif defined(__SSE2__)
@@ -179,14 +178,32 @@ inline Lanes gather(const Real* data, const IndexLanes& j) {
 /// follow before another thread does.
 inline void stream_entries(const std::int32_t* list, const IndexLanes& j, std::int32_t* to) {
 #if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
-  const GatherTarget into;
   const __m512i entries =
-      _mm512_mask_i32gather_epi32(_mm512_castps_si512(into.zero), into.all, j, list, sizeof(std::int32_t));
+      _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), all_lanes(), j, list, sizeof(std::int32_t));
   _mm512_stream_si512(reinterpret_cast<__m512i*>(to), entries);
 #else
   alignas(64) LaneIndex at[lane_count];
   j.store_aligned(at);
   for (int k = 0; k < lane_count; ++k) to[k] = list[at[k]];
+#endif
+}
+
+/// The numbers data[2j] and data[2j + 1] of the lanes' indices. Gathers of 64 bits fetch both at once, and a gather's
+/// time goes by how many places it looks at.
+inline std::pair<Lanes, Lanes> gather_pairs(const Real* data, const IndexLanes& j) {
+#if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
+  const auto half = [&](__m256i at) {
+    const auto all = static_cast<__mmask8>(all_lanes());
+    return _mm512_castpd_ps(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), all, at, data, 2 * sizeof(Real)));
+  };
+  const __m512i at = j;
+  const __m512 low = half(_mm512_castsi512_si256(at)), high = half(_mm512_extracti64x4_epi64(at, 1));
+  const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+  const __m512i odd = _mm512_or_si512(even, _mm512_set1_epi32(1));
+  return {_mm512_permutex2var_ps(low, even, high), _mm512_permutex2var_ps(low, odd, high)};
+#else
+  const IndexLanes twice = j + j;
+  return {gather(data, twice), gather(data + 1, twice)};
 #endif
 }
 
@@ -232,12 +249,17 @@ struct View3 {
   const Real* x = nullptr;
   const Real* y = nullptr;
   const Real* z = nullptr;
+  const Real* xy = nullptr;  ///< x and y of each vector in a row once more, to gather both at once, or null
 
   Vec3r operator[](int i) const { return {x[i], y[i], z[i]}; }
   Vec3<Lanes> operator[](Group i) const {
     return {Lanes::load_unaligned(x + i.first), Lanes::load_unaligned(y + i.first), Lanes::load_unaligned(z + i.first)};
   }
-  Vec3<Lanes> operator[](const IndexLanes& j) const { return {gather(x, j), gather(y, j), gather(z, j)}; }
+  Vec3<Lanes> operator[](const IndexLanes& j) const {
+    if (xy == nullptr) return {gather(x, j), gather(y, j), gather(z, j)};
+    const auto [xj, yj] = gather_pairs(xy, j);
+    return {xj, yj, gather(z, j)};
+  }
 };
 
 /// Where a pass puts its numbers, one per particle.

@@ -46,7 +46,9 @@ AdhesionLaw adhesion_law(const Akinci2013& model, const StepView& s) {
 
 }  // namespace
 
-void Akinci2013::add_acceleration(const StepView& s, Array3& acceleration) const {
+void Akinci2013::add_acceleration(const StepView& view, Array3& acceleration) const {
+  StepView s = view;
+  s.normal = s.paired(s.normal);
   const TensionLaw tension_law{s, CohesionSpline(s.units.support_radius, s.units.spacing), static_cast<Real>(strength),
                                static_cast<Real>(s.units.rest_density)};
   add_sums(s, tension_law, adhesion_law(*this, s), acceleration);

@@ -58,7 +58,9 @@ AdhesionLaw adhesion_law(const SurfaceFeature& model, const StepView& s) {
 
 }  // namespace
 
-void SurfaceFeature::add_acceleration(const StepView& s, Array3& acceleration) const {
+void SurfaceFeature::add_acceleration(const StepView& view, Array3& acceleration) const {
+  StepView s = view;
+  s.normal = s.paired(s.normal);
   const TensionLaw tension_law{s, CohesionSpline(s.units.support_radius, s.units.spacing),
                                static_cast<Real>(cohesion * s.units.rest_density), static_cast<Real>(area_minimisation),
                                direction};

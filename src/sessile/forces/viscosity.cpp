@@ -49,9 +49,11 @@ struct WallLaw {
 }  // namespace
 
 void add_viscosity(const StepView& view, double viscosity, Array3& acceleration) {
-  const MorrisFactor factor(view);
-  const auto nu = static_cast<Real>(viscosity / view.units.rest_density);
-  add_sums(view, FluidLaw{view, nu, factor}, WallLaw{view, factor}, acceleration);
+  StepView s = view;
+  s.v = s.paired(s.v);
+  const MorrisFactor factor(s);
+  const auto nu = static_cast<Real>(viscosity / s.units.rest_density);
+  add_sums(s, FluidLaw{s, nu, factor}, WallLaw{s, factor}, acceleration);
 }
 
 void add_viscosity_reaction(const StepView& view, const Walls& walls, std::span<SolidForce> forces) {

@@ -37,8 +37,8 @@ struct CoefficientsKernel {
 void pressure_coefficients(const StepView& s, const Array3& v, double dt, PressureScratch& scratch) {
   scratch.advected.resize(s.n);
   scratch.diagonal.resize(s.n);
-  s.for_each_particle(
-      CoefficientsKernel{s, {s, view(v), true}, static_cast<Real>(dt), out(scratch.advected), out(scratch.diagonal)});
+  s.for_each_particle(CoefficientsKernel{
+      s, {s, s.paired(view(v)), true}, static_cast<Real>(dt), out(scratch.advected), out(scratch.diagonal)});
 }
 
 void advect_density_to_positions(const StepView& s, const Array3& v, double dt, PressureScratch& scratch) {
@@ -49,7 +49,7 @@ void advect_density_to_positions(const StepView& s, const Array3& v, double dt, 
     scratch.predicted_position.set(k, s.x[i] + step * v[k]);
   });
   StepView after = s;
-  after.x = view(scratch.predicted_position);
+  after.x = s.paired(view(scratch.predicted_position));
   compute_density(after, scratch.next);
   constexpr auto most = Real(0.02);
   for_each(s.n, [&](int i) {
@@ -60,7 +60,7 @@ void advect_density_to_positions(const StepView& s, const Array3& v, double dt, 
 
 void density_change(const StepView& s, const Array3& acceleration, double dt, Array<Real>& change) {
   change.resize(s.n);
-  const DensityRate rate{s, view(acceleration), false};
+  const DensityRate rate{s, s.paired(view(acceleration)), false};
   const auto dt_squared = static_cast<Real>(dt * dt);
   const Out1 each = out(change);
   s.for_each_particle([&](auto i) { each.set(i, dt_squared * rate(i)); });

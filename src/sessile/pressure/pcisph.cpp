@@ -48,7 +48,7 @@ PressureResult solve(const Pcisph& method, const StepView& s, const Array3& pred
       const Vec3r v = predicted_velocity[k] + step * scratch.acceleration[k];
       scratch.predicted_position.set(k, s.x[i] + step * v);
     });
-    after.x = view(scratch.predicted_position);
+    after.x = s.paired(view(scratch.predicted_position));
     compute_density(after, scratch.advected);
     measure_error(
         s.n, [&](int i) { return max(scratch.advected[static_cast<std::size_t>(i)] - 1, Real(0)); }, result);
