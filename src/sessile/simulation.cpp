@@ -137,7 +137,9 @@ void Simulation::predict_velocities(double dt) {
 
 void Simulation::solve_pressure(double dt) {
   const Stopwatch watch(stage_times_.pressure);
+  pressure_.mean.swap(particles_.mean_pressure);  // in the solver's hands for the solve
   const PressureResult result = solve(scene_.pressure, view(), particles_.velocity, dt, particles_.pressure, pressure_);
+  pressure_.mean.swap(particles_.mean_pressure);
   add_pressure_reaction(view(), pressure_.stress, walls_, walls_.forces);
   last_step_.iterations = result.iterations;
   last_step_.converged = result.converged;

@@ -13,6 +13,7 @@ void Particles::add(const Vec3r& x, const Vec3r& v, Real m, std::int64_t number)
   velocity.push_back(v);
   mass.push_back(m);
   pressure.push_back(0);
+  mean_pressure.push_back(0);
   divergence_pressure.push_back(0);
   id.push_back(number);
 }

@@ -16,6 +16,7 @@ struct Particles {
   Array3 velocity;                  ///< [m/s]
   Array<Real> mass;                 ///< in units of rho0 dx^3, so that no product leaves float's range at any scale
   Array<Real> pressure;             ///< p / rho0 [m^2/s^2]; the warm start of the next solve
+  Array<Real> mean_pressure;        ///< mean of that over the last steps, where a solver keeps one
   Array<Real> divergence_pressure;  ///< the same of the solver that frees velocities of divergence, where there is one
   Array<std::int64_t> id;           ///< 0, 1, 2 ... in order of appearance; never reused
 
@@ -30,6 +31,7 @@ struct Particles {
     f(velocity.z);
     f(mass);
     f(pressure);
+    f(mean_pressure);
     f(divergence_pressure);
     f(id);
   }

@@ -16,6 +16,14 @@ struct Words<Prediction> {
   static constexpr std::array<std::string_view, 2> words{"linear", "positions"};
 };
 
+/// How an iteration improves the pressures: by relaxed Jacobi steps (35), or along conjugate directions.
+enum class Iteration { jacobi, conjugate };
+
+template <>
+struct Words<Iteration> {
+  static constexpr std::array<std::string_view, 2> words{"jacobi", "conjugate"};
+};
+
 /// Implicit incompressible SPH (Ihmsen et al. 2014; the paper's eqs. 24-35 and Algorithm 1).
 struct Iisph {
   double error = 1e-4;
@@ -26,6 +34,8 @@ struct Iisph {
   double momentum = 0.3;
   int long_solve = 50;
   Prediction prediction = Prediction::linear;
+  Iteration iteration = Iteration::jacobi;
+  double renewal = 0.03;
 
   static constexpr std::string_view name = "iisph";
   static constexpr std::string_view summary = "implicit incompressible SPH, relaxed Jacobi (eqs. 24-35)";
@@ -37,10 +47,16 @@ struct Iisph {
         field(&T::min_iterations, "min_iterations", "", at_least(1), "fewest iterations of a solve"),
         field(&T::max_iterations, "max_iterations", "", at_least(1),
               "most iterations of a solve; a solve that ends here is counted and reported"),
-        field(&T::relaxation, "relaxation", "", between(0.01, 1), "omega, weight of the new pressure in an iteration"),
-        field(&T::warm_start, "warm_start", "", between(0, 1), "share of the last step's pressure a solve starts from"),
+        field(&T::iteration, "iteration",
+              "what improves the pressures: relaxed steps as in (35), or conjugate directions, which take fewer"),
+        field(&T::renewal, "renewal", "", between(0.001, 1),
+              "conjugate: share of a solve's pressures in the mean that the next one starts from"),
+        field(&T::relaxation, "relaxation", "", between(0.01, 1),
+              "jacobi: omega, weight of the new pressure in an iteration"),
+        field(&T::warm_start, "warm_start", "", between(0, 1),
+              "jacobi: share of the last step's pressure a solve starts from"),
         field(&T::momentum, "momentum", "", between(0, 0.9),
-              "share of an iteration's change that the next one repeats; 0 gives (35) as printed"),
+              "jacobi: share of an iteration's change that the next one repeats; 0 gives (35) as printed"),
         field(&T::long_solve, "long_solve", "", at_least(1),
               "iterations above which a solve makes the next step shorter"),
         field(&T::prediction, "prediction",

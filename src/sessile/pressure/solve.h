@@ -21,9 +21,14 @@ struct PressureScratch {
   Array<Real> stress;         ///< p_i/rho_i^2 of that acceleration
   Array<Real> advected;       ///< advected density over rest density
   Array<Real> diagonal;       ///< a_ii
-  Array<Real> next;           ///< pressures that an iteration makes
+  Array<Real> next;           ///< pressures that an iteration makes; the residual before, of conjugate directions
   Array<Real> change;         ///< density that the pressure acceleration adds over dt, over rest density
   Array3 predicted_position;  ///< x + dt v [m]
+  Array<Real> mean;           ///< mean of the pressures so far, carried with the particles from step to step
+
+  Array<Real> residual;           ///< predicted density - rest density, over rest density
+  Array<Real> direction;          ///< what the pressures move along [m^2/s^2]
+  Array3 direction_acceleration;  ///< acceleration of that as if it were a pressure [m/s^2]
 };
 
 /// Finds the pressure p / rho0 [m^2/s^2] whose acceleration, over dt, takes the compression out of the motion with the
