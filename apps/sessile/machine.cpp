@@ -1,5 +1,7 @@
 #include "machine.h"
 
+#include <malloc.h>
+
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -32,7 +34,10 @@ std::string processor_name() {
 
 std::size_t available_memory() { return kilobytes("/proc/meminfo", "MemAvailable:"); }
 
-std::size_t resident_memory() { return kilobytes("/proc/self/status", "VmRSS:"); }
+std::size_t resident_memory() {
+  malloc_trim(0);  // what has been freed, but is kept for later, is not held
+  return kilobytes("/proc/self/status", "VmRSS:");
+}
 
 bool forget_peak_memory() {
   std::ofstream out("/proc/self/clear_refs");

@@ -67,7 +67,7 @@ void bench_block(Context& context, const std::string& name, const std::string& t
               {static_cast<double>(simulation.bytes()) / n}});
   if (knows_peak && peak > before) {
     report.add({name + ".peak_bytes_per_particle",
-                "peak memory of the process, setting up too",
+                "peak memory it touched, setting up too",
                 "B/particle",
                 {static_cast<double>(peak - before) / n}});
   }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/context.h"
 #include "bench/scenes.h"
@@ -14,25 +15,23 @@ double iterations_per_step(const Totals& from, const Totals& to) {
 }
 
 void column(Context& context) {
-  const Scene scene = bench_scene("column");
+  Scene scene = bench_scene("column");
+  if (context.particles > 0) scene.time.end = 0.2;  // a trial does not wait until it rests
+  const double span = std::min(1.0, scene.time.end / 2);
   Simulation simulation(scene);
-  while (simulation.time() < scene.time.end - 1) simulation.step();
+  while (simulation.time() < scene.time.end - span) simulation.step();
   const Totals settled = simulation.totals();
-  double fastest = 0;
-  while (!simulation.finished()) {
-    simulation.step();
-    const Array3& velocity = simulation.particles().velocity;
-    for (std::size_t i = 0; i < velocity.size(); ++i) {
-      fastest = std::max(fastest, static_cast<double>(squared_length(velocity[i])));
-    }
-  }
+  while (!simulation.finished()) simulation.step();
   context.report.add({"solver.column_iterations",
                       "resting column 20 dx deep, iterations a step",
                       "",
                       {iterations_per_step(settled, simulation.totals())}});
-  context.report.remark(fmt::format(
-      "Over the last second of {:g}, at an error of {:g} %; nothing moved faster than {:.2g} m/s meanwhile.",
-      scene.time.end, 100 * std::get<Iisph>(scene.pressure).error, std::sqrt(fastest)));
+  const double mass = simulation.units().particle_mass() * static_cast<double>(simulation.particles().size());
+  context.report.remark(
+      fmt::format("Over the last {:g} s of {:g}, at an error of {:g} %; at the end particles move at {:.2g} m/s "
+                  "(root mean square).",
+                  span, scene.time.end, 100 * std::get<Iisph>(scene.pressure).error,
+                  std::sqrt(2 * simulation.last_step().kinetic_energy / mass)));
 }
 
 }  // namespace
