@@ -5,8 +5,8 @@ import shutil
 import subprocess
 import sys
 
-# The newest of which a particle weighs 0.8 rho0 dx^3 is 2.18.1, but its neighbour search takes five times as long as
-# that of 2.16.1: this is the fastest that does the same work.
+# A particle weighs 0.8 rho0 dx^3 up to 2.18.1, and 1 in 2.19.0. In a trial of 1 728 particles in the box of S1 the neighbour
+# search of 2.18.1 and 2.19.0 took five times as long as that of 2.16.1 (22 ms, 4.4 ms).
 VERSION = "2.16.1"
 HERE = pathlib.Path(__file__).resolve().parent
 BUILD = HERE.parents[1] / "build/peers"
