@@ -14,7 +14,7 @@ esac
 tools/setup.sh build
 lock_build
 if [ ! -e build/release/build.ninja ]; then
-  step "Configuring" configure.log cmake --preset release -DSESSILE_TESTS=OFF -DSESSILE_BENCH=OFF
+  step "Configuring" configure.log cmake --preset release -DSESSILE_TESTS=OFF
 fi
 step "Building" build.log cmake --build --preset release --parallel "$(jobs_at_once)" --target sessile_cli
 

@@ -16,6 +16,6 @@ fi
 
 tools/setup.sh build test
 lock_build
-step "Configuring" configure.log cmake --preset release -DSESSILE_TESTS=ON -DSESSILE_BENCH=ON
+step "Configuring" configure.log cmake --preset release -DSESSILE_TESTS=ON
 step "Building" build.log cmake --build --preset release --parallel "$(jobs_at_once)"
 exec ctest --preset release --parallel "$(nproc)" "${selection[@]}" "$@"

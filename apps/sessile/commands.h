@@ -10,6 +10,7 @@ enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 130 };
 
 void add_run(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
+void add_bench(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program, int& exit_code);
 void add_models(CLI::App& program, int& exit_code);

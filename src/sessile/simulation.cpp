@@ -20,13 +20,17 @@ namespace {
 /// Adds the wall time of its own life to a stage.
 class Stopwatch {
  public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(StageTimes& times, double StageTimes::*stage) : times_(times), stage_(stage) {}
+  ~Stopwatch() {
+    times_.*stage_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    times_.clock_reads += 2;
+  }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
  private:
-  double& seconds_;
+  StageTimes& times_;
+  double StageTimes::*stage_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -60,7 +64,7 @@ void Simulation::step() {
 
 void Simulation::look_around() {
   {
-    const Stopwatch watch(stage_times_.neighbors);
+    const Stopwatch watch(stage_times_, &StageTimes::neighbors);
     const auto h = static_cast<Real>(units_.support_radius);
     grid_.build(particles_.position, grid_shape_);
     particles_.reorder(grid_.order());
@@ -68,7 +72,7 @@ void Simulation::look_around() {
     fluid_neighbors_.build(fluid, fluid, space_, h);
     wall_neighbors_.build(fluid, samples, space_, h);
   }
-  const Stopwatch watch(stage_times_.density);
+  const Stopwatch watch(stage_times_, &StageTimes::density);
   for (auto* pairs : {&position_pairs_, &pairs_}) pairs->resize(2 * particles_.size());
   pair_up(sessile::view(particles_.position), particles_.size(), position_pairs_.data());
   const auto& masses = particles_.mass;
@@ -87,7 +91,7 @@ void Simulation::look_around() {
 }
 
 void Simulation::accelerate() {
-  const Stopwatch watch(stage_times_.forces);
+  const Stopwatch watch(stage_times_, &StageTimes::forces);
   const StepView s = view();
   walls_.forces.assign(walls_.forces.size(), {});
   acceleration_.resize(s.n);
@@ -106,6 +110,7 @@ void Simulation::accelerate() {
 }
 
 double Simulation::next_time_step() {
+  const Stopwatch watch(stage_times_, &StageTimes::time_step);
   MotionScale scale;
   scale.spacing = units_.spacing;
   scale.rest_density = units_.rest_density;
@@ -127,7 +132,7 @@ double Simulation::next_time_step() {
 }
 
 void Simulation::predict_velocities(double dt) {
-  const Stopwatch watch(stage_times_.integration);
+  const Stopwatch watch(stage_times_, &StageTimes::integration);
   const auto step = static_cast<Real>(dt);
   for_each(particles_.size(), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
@@ -136,7 +141,7 @@ void Simulation::predict_velocities(double dt) {
 }
 
 void Simulation::solve_pressure(double dt) {
-  const Stopwatch watch(stage_times_.pressure);
+  const Stopwatch watch(stage_times_, &StageTimes::pressure);
   pressure_.mean.swap(particles_.mean_pressure);  // in the solver's hands for the solve
   const PressureResult result = solve(scene_.pressure, view(), particles_.velocity, dt, particles_.pressure, pressure_);
   pressure_.mean.swap(particles_.mean_pressure);
@@ -152,7 +157,7 @@ void Simulation::solve_pressure(double dt) {
 
 void Simulation::free_velocities_of_divergence(double dt) {
   if (!frees_velocities_of_divergence(scene_.pressure)) return;
-  const Stopwatch watch(stage_times_.pressure);
+  const Stopwatch watch(stage_times_, &StageTimes::pressure);
   const auto energy = [&] {
     return units_.particle_mass() *
            sum(particles_.size(), [&](int i) { return kinetic(particles_, static_cast<std::size_t>(i)); });
@@ -174,7 +179,7 @@ void Simulation::free_velocities_of_divergence(double dt) {
 }
 
 void Simulation::move(double dt) {
-  const Stopwatch watch(stage_times_.integration);
+  const Stopwatch watch(stage_times_, &StageTimes::integration);
   const auto step = static_cast<Real>(dt);
   // A particle without a wall sample in reach, and not faster than dx a step, cannot have met a solid whose samples lie
   // at most dx apart.
@@ -222,7 +227,7 @@ void Simulation::move(double dt) {
 
 void Simulation::take_out_what_left() {
   if (!scene_.domain) return;
-  const Stopwatch watch(stage_times_.integration);
+  const Stopwatch watch(stage_times_, &StageTimes::integration);
   const Domain& box = *scene_.domain;
   const Vec3r low = vec_cast<Real>(box.min), high = vec_cast<Real>(box.max);
   const auto into_period = [](Edge edge, Real& x, Real start, Real end) {
@@ -259,7 +264,7 @@ void Simulation::take_out_what_left() {
 }
 
 void Simulation::let_in_new_layers() {
-  const Stopwatch watch(stage_times_.integration);
+  const Stopwatch watch(stage_times_, &StageTimes::integration);
   double energy = 0;
   for (LayerSource& source : sources_) {
     const std::size_t before = particles_.size();

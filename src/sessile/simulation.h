@@ -21,9 +21,12 @@ namespace sessile {
 
 struct StepView;
 
-/// Wall time [s] spent in each stage since the start.
+/// Wall time [s] spent in each stage since the start. All of a step but a few assignments belongs to some stage.
 struct StageTimes {
-  double neighbors = 0, density = 0, forces = 0, pressure = 0, integration = 0;
+  double neighbors = 0, density = 0, forces = 0, time_step = 0, pressure = 0, integration = 0;
+  std::int64_t clock_reads = 0;  ///< readings of the clock that these took
+
+  double sum() const { return neighbors + density + forces + time_step + pressure + integration; }
 };
 
 /// What the last step did.
@@ -103,6 +106,9 @@ class Simulation {
   /// One force's acceleration [m/s^2] of every particle at the current positions and velocities.
   Array3 acceleration(std::string_view name) const;
 
+  /// What pair laws read of this moment. StepView is internal: this is for parts of the library that run passes alone.
+  StepView view() const;
+
  private:
   void look_around();
   void free_velocities_of_divergence(double dt);
@@ -115,7 +121,6 @@ class Simulation {
   void move(double dt);
   void take_out_what_left();
   void let_in_new_layers();
-  StepView view() const;
 
   Scene scene_;
   Units units_;

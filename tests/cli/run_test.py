@@ -61,7 +61,7 @@ class Results(CliTest):
                           "out": 0, "lost": 0, "waits": 0})
         self.assertAlmostEqual(summary["simulated_time_s"], 0.04, places=9)
         self.assertGreaterEqual(summary["iterations"], 16)
-        self.assertEqual(set(summary["wall_time_s"]), {"total", "neighbors", "density", "forces", "pressure",
+        self.assertEqual(set(summary["wall_time_s"]), {"total", "neighbors", "density", "forces", "time_step", "pressure",
                                                        "integration", "output", "measures", "writer_thread"})
         self.assertGreater(summary["memory_bytes"]["peak"], summary["memory_bytes"]["arrays"])
         self.assertIn(summary["version"], self.call("--version")[0])

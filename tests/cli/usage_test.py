@@ -3,7 +3,7 @@ import re
 
 from sessile_cli import VERSION, CliTest, tiny, unittest
 
-COMMANDS = ("run", "compare", "check", "info", "models")
+COMMANDS = ("run", "compare", "bench", "check", "info", "models")
 
 
 class Help(CliTest):
@@ -19,6 +19,7 @@ class Help(CliTest):
                    "compare": ["SCENE", "--methods LIST", "--output DIR", "--set PATH=VALUE", "--until SECONDS",
                                "--threads N", "--progress", "--search-dt", "--search-until SECONDS",
                                "--search-max SECONDS"],
+                   "bench": ["--case NAME", "--runs N", "--threads N", "--particles N", "--json FILE"],
                    "check": ["SCENE", "--set PATH=VALUE", "--json"], "info": [], "models": []}
         for command in COMMANDS:
             for flag in ("--help", "-h"):
@@ -47,7 +48,7 @@ class WrongUsage(CliTest):
         self.expect([], "A subcommand is required")
         self.expect(["--threads", "1"], "A subcommand is required")
         self.expect(["rnu", "s.json"], 'unknown command "rnu" (did you mean "run"?)')
-        self.expect(["simulate"], 'unknown command "simulate" (valid commands: run, compare, check, info, models)')
+        self.expect(["simulate"], 'unknown command "simulate" (valid commands: run, compare, bench, check, info, models)')
 
     def test_options(self):
         scene = self.write(tiny())

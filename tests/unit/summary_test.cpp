@@ -45,7 +45,7 @@ TEST(Summary, HoldsEverythingAsJson) {
                        .waits = 4,
                        .out = 5,
                        .lost = 6};
-  simulation.stages = {1, 2, 3, 4, 5};
+  simulation.stages = {1, 2, 3, 4, 5, 6};
   simulation.bytes = 123456;
 
   const Json::Value summary = parsed(summary_json(run, simulation));
@@ -67,7 +67,9 @@ TEST(Summary, HoldsEverythingAsJson) {
   EXPECT_EQ(summary["lost"], 6);
   EXPECT_EQ(summary["wall_time_s"]["total"], 12.5);
   EXPECT_EQ(summary["wall_time_s"]["neighbors"], 1);
-  EXPECT_EQ(summary["wall_time_s"]["integration"], 5);
+  EXPECT_EQ(summary["wall_time_s"]["time_step"], 4);
+  EXPECT_EQ(summary["wall_time_s"]["pressure"], 5);
+  EXPECT_EQ(summary["wall_time_s"]["integration"], 6);
   EXPECT_EQ(summary["wall_time_s"]["output"], 0.5);
   EXPECT_EQ(summary["wall_time_s"]["measures"], 0.25);
   EXPECT_EQ(summary["wall_time_s"]["writer_thread"], 3);

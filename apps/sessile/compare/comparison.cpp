@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <string_view>
 #include <type_traits>
 
+#include "machine.h"
 #include "sessile/output/json_object.h"
 #include "sessile/version.h"
 
@@ -115,15 +115,6 @@ double factor_to_first(const Comparison& comparison, const RunRecord& run) {
   if (comparison.methods.empty() || !comparison.methods[0].run) return 0;
   const double first = comparison.methods[0].run->wall_per_second();
   return first > 0 ? run.wall_per_second() / first : 0;
-}
-
-std::string processor_name() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    const auto colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown";
 }
 
 std::string comparison_json(const Comparison& comparison) {

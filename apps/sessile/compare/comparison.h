@@ -61,9 +61,6 @@ double factor_to_first(const Comparison& comparison, const RunRecord& run);
 /// methods without one are left out, and outcomes are not given.
 std::vector<Row> fastest_sound(const Comparison& comparison);
 
-/// Name of this machine's processor; "unknown" where the system does not tell.
-std::string processor_name();
-
 std::string comparison_json(const Comparison& comparison);
 std::string comparison_csv(const Comparison& comparison);
 std::string comparison_markdown(const Comparison& comparison);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "comparison.h"
+#include "machine.h"
 #include "plots.h"
 #include "sessile/version.h"
 

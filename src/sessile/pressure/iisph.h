@@ -27,14 +27,14 @@ struct Words<Iteration> {
 /// Implicit incompressible SPH (Ihmsen et al. 2014; the paper's eqs. 24-35 and Algorithm 1).
 struct Iisph {
   double error = 1e-4;
-  int min_iterations = 2;
+  int min_iterations = 4;
   int max_iterations = 200;
   double relaxation = 0.5;
   double warm_start = 0.5;
   double momentum = 0.3;
   int long_solve = 50;
   Prediction prediction = Prediction::linear;
-  Iteration iteration = Iteration::jacobi;
+  Iteration iteration = Iteration::conjugate;
   double renewal = 0.03;
 
   static constexpr std::string_view name = "iisph";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "sessile/scene/fault_lines.h"
@@ -17,18 +18,8 @@ namespace {
 /// Offsets below zero stand for overrides: -1 is the first.
 std::ptrdiff_t mark_of(std::size_t override_index) { return -static_cast<std::ptrdiff_t>(override_index) - 1; }
 
-}  // namespace
-
-std::string ResolvedScene::locate(const Fault& fault) const {
-  std::string path = fault.path;
-  while (!path.empty() && !places.contains(path)) path = around(path);
-  const auto place = places.find(path);
-  return place == places.end() ? text(fault) : line_for(place->second, fault.path, fault.message);
-}
-
-ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
-                                  const FurtherCheck& further) {
-  SceneText text = SceneText::from_file(file);
+ResolvedScene resolve(SceneText text, const std::filesystem::path& file, std::span<const std::string> overrides,
+                      const FurtherCheck& further) {
   Json::Value root = parsed_or_thrown(text, file);
 
   std::vector<Override> split;
@@ -60,6 +51,24 @@ ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<c
   }
   lines.throw_any();
   return resolved;
+}
+
+}  // namespace
+
+std::string ResolvedScene::locate(const Fault& fault) const {
+  std::string path = fault.path;
+  while (!path.empty() && !places.contains(path)) path = around(path);
+  const auto place = places.find(path);
+  return place == places.end() ? text(fault) : line_for(place->second, fault.path, fault.message);
+}
+
+ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
+                                  const FurtherCheck& further) {
+  return resolve(SceneText::from_file(file), file, overrides, further);
+}
+
+ResolvedScene read_resolved_text(std::string text, const std::string& name, std::span<const std::string> overrides) {
+  return resolve(SceneText(std::move(text)), name, overrides, {});
 }
 
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {

@@ -33,6 +33,10 @@ using FurtherCheck = std::function<std::vector<Fault>(const Scene&)>;
 ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {},
                                   const FurtherCheck& further = {});
 
+/// The same of a scene that is at hand as text; `name` stands for the file in messages.
+ResolvedScene read_resolved_text(std::string text, const std::string& name,
+                                 std::span<const std::string> overrides = {});
+
 /// The scene alone.
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
