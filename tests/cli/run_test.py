@@ -60,7 +60,7 @@ class Results(CliTest):
                          {"status": "done", "message": "", "particles": 27, "wall_particles": 121, "steps": 8, "frames": 5,
                           "out": 0, "lost": 0, "waits": 0})
         self.assertAlmostEqual(summary["simulated_time_s"], 0.04, places=9)
-        self.assertGreaterEqual(summary["iterations"], 16)
+        self.assertGreaterEqual(summary["iterations"], 8)  # one a step in free fall
         self.assertEqual(set(summary["wall_time_s"]), {"total", "neighbors", "density", "forces", "time_step", "pressure",
                                                        "integration", "output", "measures", "writer_thread"})
         self.assertGreater(summary["memory_bytes"]["peak"], summary["memory_bytes"]["arrays"])

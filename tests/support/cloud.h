@@ -56,11 +56,16 @@ struct Cloud {
     sort(walls.position.x), sort(walls.position.y), sort(walls.position.z), sort(walls.psi), sort(walls.solid);
     near.build({particles.position, grid}, {particles.position, grid}, space, h);
     near_walls.build({particles.position, grid}, {walls.position, wall_grid}, space, h);
+    pair_positions();
+    compute_density(view(one_lane), density);
+    compute_normals(view(one_lane), normal);
+  }
+
+  /// To be called when particles have moved without a look_around().
+  void pair_positions() {
     position_pairs.resize(2 * particles.size());
     pairs.resize(2 * particles.size());
     pair_up(sessile::view(particles.position), particles.size(), position_pairs.data());
-    compute_density(view(one_lane), density);
-    compute_normals(view(one_lane), normal);
   }
 
   StepView view(bool one_lane = false) const {

@@ -107,6 +107,7 @@ TEST(Iisph, DensityAtThePredictedPositionsIsThere) {
   for (std::size_t i = 0; i < moved.particles.size(); ++i) {
     moved.particles.position.set(i, cloud.particles.position[i] + step * cloud.particles.velocity[i]);
   }
+  moved.pair_positions();
   Array<Real> there;
   compute_density(moved.view(), there);
   double apart = 0;
@@ -163,6 +164,7 @@ TEST(Iisph, MomentumTakesFewerIterationsToTheSamePressures) {
     PressureScratch scratch;
     Iisph method;
     method.error = 1e-6;
+    method.iteration = Iteration::jacobi;
     method.momentum = momentum;
     iterations = solve(method, cloud.view(), cloud.particles.velocity, dt, pressure, scratch).iterations;
     return scratch.acceleration;

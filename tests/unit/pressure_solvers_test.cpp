@@ -44,7 +44,9 @@ double real_error(const test::Cloud& cloud, const Solved& s) {
 std::vector<Pressure> every_solver() {
   Wcsph wcsph;
   wcsph.sound_speed = 40;
-  return {Iisph{}, Pcisph{}, wcsph, Dfsph{}};
+  Iisph jacobi;
+  jacobi.iteration = Iteration::jacobi;
+  return {Iisph{}, jacobi, Pcisph{}, wcsph, Dfsph{}};
 }
 std::string name_of(const Pressure& method) {
   return std::visit([](const auto& chosen) { return std::string(chosen.name); }, method);
@@ -95,7 +97,8 @@ TEST(EverySolver, PressureNeverPulls) {
     Array<Real> stress;  // the acceleration is that of the pressures handed back
     Array3 a;
     pressure_acceleration(cloud.view(), s.pressure, stress, a);
-    EXPECT_EQ(test::difference(a, s.scratch.acceleration), 0) << name_of(method);
+    // To rounding: conjugate directions carry it along with the pressures.
+    EXPECT_LT(test::difference(a, s.scratch.acceleration), 2e-6) << name_of(method);
   }
 }
 
