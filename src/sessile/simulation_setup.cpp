@@ -238,11 +238,9 @@ Array3 Simulation::acceleration(std::string_view name) const {
 }
 
 std::size_t Simulation::bytes() const {
-  // position, velocity, normal, acceleration, pressure acceleration, predicted position; two of pairs; mass, both
-  // pressures, density, stress, advected, diagonal, next, change
-  const std::size_t arrays = particles_.size() * ((6 * 3 + 2 * 2 + 9) * sizeof(Real) + sizeof(std::int64_t));
-  return arrays + walls_.bytes() + grid_.bytes() + wall_grid_.bytes() + fluid_neighbors_.bytes() +
-         wall_neighbors_.bytes();
+  const auto total = [](const auto&... arrays) { return (bytes_of(arrays) + ...); };
+  return particles_.bytes() + walls_.bytes() + grid_.bytes() + wall_grid_.bytes() + fluid_neighbors_.bytes() +
+         wall_neighbors_.bytes() + total(density_, normal_, acceleration_, position_pairs_, pairs_) + pressure_.bytes();
 }
 
 }  // namespace sessile

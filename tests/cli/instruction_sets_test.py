@@ -187,7 +187,7 @@ class SameResults(InstructionSets):
 
     def test_conjugate_directions_too(self):
         """Each of them divides by what the one before left over: rounding grows faster."""
-        self.compare("conjugate", 100)
+        self.compare("conjugate", 300)
 
     def compare(self, iteration, roundings):
         names = self.there()

@@ -43,6 +43,12 @@ struct AlignedAllocator {
 template <class T>
 using Array = std::vector<T, AlignedAllocator<T>>;
 
+/// Memory in use [bytes]; what a vector holds in reserve has never been touched.
+template <class T>
+std::size_t bytes_of(const Array<T>& array) {
+  return array.size() * sizeof(T);
+}
+
 /// One vector per particle, stored as three arrays so that lanes load or gather each component.
 struct Array3 {
   Array<Real> x, y, z;
@@ -75,5 +81,7 @@ struct Array3 {
     z[i] = v.z;
   }
 };
+
+inline std::size_t bytes_of(const Array3& a) { return bytes_of(a.x) + bytes_of(a.y) + bytes_of(a.z); }
 
 }  // namespace sessile

@@ -144,13 +144,19 @@ inline IndexLanes load_indices(const std::int32_t* list) {
   }
 }
 
-#if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
 /// A full mask that the compiler does not know to be full. With it a gather goes into a register set to zero; with a
 /// known one GCC 12 leaves the zero out, the gather waits for whoever wrote the register before, and so the turns of a
 /// loop wait for each other.
+#if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
 inline __mmask16 all_lanes() {
   __mmask16 all = 0xffff;
   asm("" : "+k"(all));
+  return all;
+}
+#elif defined(__AVX2__) && !defined(SESSILE_DOUBLE)
+inline __m256i all_lanes() {
+  __m256i all = _mm256_set1_epi32(-1);
+  asm("" : "+x"(all));
   return all;
 }
 #endif
@@ -163,7 +169,7 @@ inline Lanes gather(const Real* data, const IndexLanes& j) {
 #elif defined(__AVX512F__)
   return _mm512_mask_i32gather_ps(_mm512_setzero_ps(), all_lanes(), j, data, sizeof(Real));
 #elif defined(__AVX2__)
-  return _mm256_i32gather_ps(data, j, sizeof(Real));
+  return _mm256_mask_i32gather_ps(_mm256_setzero_ps(), data, j, _mm256_castsi256_ps(all_lanes()), sizeof(Real));
 #elif defined(__SSE2__)
   alignas(16) std::int32_t at[4];
   j.store_aligned(at);
@@ -201,6 +207,19 @@ inline std::pair<Lanes, Lanes> gather_pairs(const Real* data, const IndexLanes& 
   const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
   const __m512i odd = _mm512_or_si512(even, _mm512_set1_epi32(1));
   return {_mm512_permutex2var_ps(low, even, high), _mm512_permutex2var_ps(low, odd, high)};
+#elif defined(__AVX2__) && !defined(SESSILE_DOUBLE)
+  const auto half = [&](__m128i at) {
+    return _mm256_castpd_ps(_mm256_mask_i32gather_pd(_mm256_setzero_pd(), reinterpret_cast<const double*>(data), at,
+                                                     _mm256_castsi256_pd(all_lanes()), 2 * sizeof(Real)));
+  };
+  const __m256i at = j;
+  const __m256 low = half(_mm256_castsi256_si128(at)), high = half(_mm256_extracti128_si256(at, 1));
+  // Shuffles work in halves of a register: pairs 0 1 4 5 2 3 6 7 are put in order after them.
+  const auto in_order = [](__m256 a) {
+    return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(a), _MM_SHUFFLE(3, 1, 2, 0)));
+  };
+  return {in_order(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0))),
+          in_order(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)))};
 #else
   const IndexLanes twice = j + j;
   return {gather(data, twice), gather(data + 1, twice)};

@@ -235,8 +235,8 @@ int Grid::around(const std::array<std::int64_t, 3>& cell, Cursor& cursor, std::s
 }
 
 std::size_t Grid::bytes() const {
-  return keys_.capacity() * sizeof(keys_[0]) + begins_.capacity() * sizeof(begins_[0]) +
-         order_.capacity() * sizeof(order_[0]) + (items_.capacity() + items_scratch_.capacity()) * sizeof(items_[0]);
+  return keys_.size() * sizeof(keys_[0]) + begins_.size() * sizeof(begins_[0]) + bytes_of(order_) + bytes_of(items_) +
+         bytes_of(items_scratch_);
 }
 
 }  // namespace sessile

@@ -146,7 +146,11 @@ void NeighborList::build(const SortedPoints& points, const SortedPoints& others,
       }
       for (int q = 0; q < lane_count; ++q) count_[first + static_cast<std::size_t>(q)] = found.count(q);
       const std::size_t needed = static_cast<std::size_t>(found.longest()) * lane_count;
-      if (memory.size() < used + needed) memory.resize(std::max(used + needed, memory.size() + memory.size() / 4));
+      if (memory.size() < used + needed) {
+        memory.reserve(
+            std::max(used + needed, memory.size() + memory.size() / 8));  // else a vector takes twice as much
+        memory.resize(memory.capacity());
+      }
       found.write_side_by_side(memory.data() + used);
       groups_[first / lane_count].longest = found.longest();
       used += needed;
@@ -163,8 +167,8 @@ void NeighborList::build(const SortedPoints& points, const SortedPoints& others,
 }
 
 std::size_t NeighborList::bytes() const {
-  std::size_t total = groups_.capacity() * sizeof(groups_[0]) + count_.capacity() * sizeof(count_[0]);
-  for (const auto& block : blocks_) total += block.capacity() * sizeof(std::int32_t);
+  std::size_t total = bytes_of(groups_) + bytes_of(count_);
+  for (const auto& block : blocks_) total += bytes_of(block);
   return total;
 }
 

@@ -8,6 +8,12 @@ void Particles::resize(std::size_t n) {
   for_each_field([n](auto& array) { array.resize(n); });
 }
 
+std::size_t Particles::bytes() const {
+  std::size_t total = bytes_of(std::get<0>(reorder_scratch_)) + bytes_of(std::get<1>(reorder_scratch_));
+  for_each_field([&](const auto& array) { total += bytes_of(array); });
+  return total;
+}
+
 void Particles::add(const Vec3r& x, const Vec3r& v, Real m, std::int64_t number) {
   position.push_back(x);
   velocity.push_back(v);

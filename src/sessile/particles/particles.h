@@ -23,20 +23,15 @@ struct Particles {
   /// Calls f(array) for each array above: the only place that lists them all.
   template <class F>
   void for_each_field(F&& f) {
-    f(position.x);
-    f(position.y);
-    f(position.z);
-    f(velocity.x);
-    f(velocity.y);
-    f(velocity.z);
-    f(mass);
-    f(pressure);
-    f(mean_pressure);
-    f(divergence_pressure);
-    f(id);
+    visit(*this, f);
+  }
+  template <class F>
+  void for_each_field(F&& f) const {
+    visit(*this, f);
   }
 
   std::size_t size() const { return id.size(); }
+  std::size_t bytes() const;
   void resize(std::size_t n);
 
   /// Appends one particle at rest pressure.
@@ -46,6 +41,21 @@ struct Particles {
   void reorder(std::span<const std::int32_t> order);
 
  private:
+  template <class P, class F>
+  static void visit(P& particles, F&& f) {
+    f(particles.position.x);
+    f(particles.position.y);
+    f(particles.position.z);
+    f(particles.velocity.x);
+    f(particles.velocity.y);
+    f(particles.velocity.z);
+    f(particles.mass);
+    f(particles.pressure);
+    f(particles.mean_pressure);
+    f(particles.divergence_pressure);
+    f(particles.id);
+  }
+
   std::tuple<Array<Real>, Array<std::int64_t>> reorder_scratch_;  // one for each type of a field
 };
 

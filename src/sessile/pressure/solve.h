@@ -29,6 +29,12 @@ struct PressureScratch {
   Array<Real> residual;           ///< predicted density - rest density, over rest density
   Array<Real> direction;          ///< what the pressures move along [m^2/s^2]
   Array3 direction_acceleration;  ///< acceleration of that as if it were a pressure [m/s^2]
+
+  std::size_t bytes() const {
+    const auto total = [](const auto&... arrays) { return (bytes_of(arrays) + ...); };
+    return total(acceleration, stress, advected, diagonal, next, change, predicted_position, mean, residual, direction,
+                 direction_acceleration);
+  }
 };
 
 /// Finds the pressure p / rho0 [m^2/s^2] whose acceleration, over dt, takes the compression out of the motion with the
