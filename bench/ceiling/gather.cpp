@@ -6,7 +6,7 @@
 #include "ceiling/ceiling.h"
 #include "ceiling/repeat.h"
 #include "sessile/core/array.h"
-#include "sessile/core/lanes.h"
+#include "sessile/core/views.h"
 
 namespace sessile::ceiling {
 namespace {

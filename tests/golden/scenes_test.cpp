@@ -75,8 +75,8 @@ TEST(Tablet, BreaksUpWithoutTension) {
   EXPECT_EQ(simulation.totals().lost, 0);
 }
 
-/// At 6 s: before, the farthest particle still draws in (1.34 to 1.37 at 3 s from one solver setting to the next, 1.33 to
-/// 1.36 at 4 s, 1.33 to 1.34 from 6 s on).
+/// At 6 s: before, the farthest particle still draws in (1.34 to 1.37 at 3 s from one solver setting to the next, 1.33
+/// to 1.36 at 4 s, 1.33 to 1.34 from 6 s on).
 TEST(Drop, BecomesRound) {
   double peak = 0;
   const Simulation simulation = ran("drop.json", {"time.end=6"}, &peak);

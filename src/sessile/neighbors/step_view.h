@@ -1,9 +1,9 @@
 #pragma once
 
 #include "sessile/core/array.h"
-#include "sessile/core/lanes.h"
 #include "sessile/core/space.h"
 #include "sessile/core/units.h"
+#include "sessile/core/views.h"
 #include "sessile/kernels/cubic_spline.h"
 #include "sessile/neighbors/neighbor_view.h"
 #include "sessile/particles/particles.h"

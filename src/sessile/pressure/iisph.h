@@ -38,7 +38,8 @@ struct Iisph {
   double renewal = 0.03;
 
   static constexpr std::string_view name = "iisph";
-  static constexpr std::string_view summary = "implicit incompressible SPH, relaxed Jacobi (eqs. 24-35)";
+  static constexpr std::string_view summary =
+      "implicit incompressible SPH (eqs. 24-35), by conjugate directions or the paper's relaxed Jacobi steps";
   static constexpr bool frees_velocities_of_divergence = false;
   static constexpr auto fields() {
     using T = Iisph;

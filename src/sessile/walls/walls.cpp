@@ -1,6 +1,6 @@
 #include "sessile/walls/walls.h"
 
-#include "sessile/core/parallel.h"
+#include "sessile/core/views.h"
 #include "sessile/kernels/cubic_spline.h"
 #include "sessile/neighbors/neighbor_view.h"
 #include "sessile/scene/sampling.h"
