@@ -150,32 +150,6 @@ TEST(Conjugate, EveryTurnTakesKineticEnergyOut) {
   }
 }
 
-TEST(Conjugate, GivesTheSameBitsForAnyNumberOfThreads) {
-  const auto state = [](int threads) {
-    Particles end;
-    test::with_threads(threads, [&] {
-      Scene scene = test::column(10, 10, 1e-3);
-      Iisph method;
-      method.iteration = Iteration::conjugate;
-      scene.pressure = method;
-      scene.forces = {SurfaceFeature{}};
-      scene.bodies[0].velocity = {0.3, 0.1, -2};
-      Simulation simulation(scene);
-      for (int k = 0; k < 20; ++k) simulation.step();
-      end = simulation.particles();
-    });
-    return end;
-  };
-  const Particles one = state(1);
-  for (const int threads : {2, 8}) {
-    const Particles many = state(threads);
-    EXPECT_EQ(one.position.z, many.position.z) << threads;
-    EXPECT_EQ(one.velocity.x, many.velocity.x) << threads;
-    EXPECT_EQ(one.pressure, many.pressure) << threads;
-    EXPECT_EQ(one.mean_pressure, many.mean_pressure) << threads;
-  }
-}
-
 TEST(Conjugate, EndsAtOnceWhereNothingIsCompressed) {
   test::Cloud cloud = test::lattice(6, 0);
   for (std::size_t i = 0; i < cloud.particles.size(); ++i) {

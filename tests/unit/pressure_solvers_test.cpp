@@ -83,6 +83,7 @@ TEST(EverySolver, GivesTheSameBitsForAnyNumberOfThreads) {
       EXPECT_EQ(one.position.z, many.position.z) << name_of(method) << ", " << threads;
       EXPECT_EQ(one.velocity.x, many.velocity.x) << name_of(method);
       EXPECT_EQ(one.pressure, many.pressure) << name_of(method);
+      EXPECT_EQ(one.mean_pressure, many.mean_pressure) << name_of(method);
       EXPECT_EQ(one.divergence_pressure, many.divergence_pressure) << name_of(method);
     }
   }
