@@ -29,7 +29,8 @@ class Candidates {
         Lanes::load_unaligned(points.x.data() + j).store_unaligned(x_.data() + k);
         Lanes::load_unaligned(points.y.data() + j).store_unaligned(y_.data() + k);
         Lanes::load_unaligned(points.z.data() + j).store_unaligned(z_.data() + k);
-        for (int lane = 0; lane < lane_count; ++lane) place_[static_cast<std::size_t>(k + lane)] = j + lane;
+        std::int32_t* places = place_.data() + k;
+        for (int lane = 0; lane < lane_count; ++lane) places[lane] = j + lane;
       }
       count_ += range.end - range.begin;
     }

@@ -16,15 +16,12 @@ class Neighbors {
  public:
   class Iterator {
    public:
-    using iterator_category = std::forward_iterator_tag;
     using value_type = std::int32_t;
     using difference_type = std::ptrdiff_t;
-    using pointer = const std::int32_t*;
-    using reference = const std::int32_t&;
 
     Iterator() = default;
     Iterator(const Neighbors& row, std::size_t k) : first_(row.first_), stride_(row.stride_), k_(k) {}
-    reference operator*() const { return first_[k_ * stride_]; }
+    const std::int32_t& operator*() const { return first_[k_ * stride_]; }
     Iterator& operator++() {
       ++k_;
       return *this;
