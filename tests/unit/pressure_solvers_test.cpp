@@ -72,7 +72,7 @@ TEST(EverySolver, GivesTheSameBitsForAnyNumberOfThreads) {
         scene.forces = {SurfaceFeature{}};
         scene.bodies[0].velocity = {0.3, 0.1, -2};
         Simulation simulation(scene);
-        for (int k = 0; k < 20; ++k) simulation.step();
+        for (int k = 0; k < 8; ++k) simulation.step();
         end = simulation.particles();
       });
       return end;
