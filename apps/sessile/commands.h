@@ -9,6 +9,10 @@ namespace sessile::app {
 enum ExitCode { done = 0, run_failed = 1, bad_input = 2, interrupted = 130 };
 
 void add_run(CLI::App& program, int& exit_code);
+void add_mesh(CLI::App& program, int& exit_code);
+void add_picture(CLI::App& program, int& exit_code);
+void add_view(CLI::App& program, int& exit_code);
+void add_render(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 void add_bench(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
