@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 namespace sessile::viewer {
@@ -64,6 +65,36 @@ draw::Moment moment_of(const Snapshot& snapshot, const std::string& field) {
   if (column == nullptr && field == "speed") column = find(snapshot, "velocity");
   if (column != nullptr) colour(moment, *column, field);
   return moment;
+}
+
+Snapshot coloured_points(const draw::Moment& moment) {
+  Snapshot snapshot{moment.time, 0, moment.points, {}};
+  if (!moment.values.empty()) snapshot.columns.push_back({moment.field, moment.unit, 1, moment.values});
+  return snapshot;
+}
+
+draw::Stage stage_of(const Scene& scene, const std::vector<float>& points) {
+  draw::Stage stage;
+  stage.spacing = scene.spacing;
+  if (const double g = length(scene.gravity); g > 0) stage.up = (-1 / g) * scene.gravity;
+  stage.solids = solid_meshes(scene);
+  const double most = std::numeric_limits<double>::infinity();
+  Vec3d low{most, most, most}, high{-most, -most, -most};
+  const auto hold = [&](const Vec3d& x) {
+    low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
+    high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
+  };
+  for (std::size_t k = 0; k + 2 < points.size(); k += 3) {
+    hold({static_cast<double>(points[k]), static_cast<double>(points[k + 1]), static_cast<double>(points[k + 2])});
+  }
+  for (const SolidMesh& solid : stage.solids) {
+    for (const Vec3d& vertex : solid.mesh.vertices) hold(vertex);
+  }
+  for (const Emitter& emitter : scene.emitters) hold(emitter.placement.position);
+  const Vec3d margin = Vec3d{1, 1, 1} * (0.5 * scene.spacing);
+  stage.low = low - margin;
+  stage.high = high + margin;
+  return stage;
 }
 
 std::vector<std::string> fields_of(const Snapshot& snapshot) {

@@ -15,6 +15,12 @@ draw::Moment moment_of(const Simulation& simulation, const std::string& field);
 /// The same of a frame; "speed" is also found from a velocity, and every vector gives its length.
 draw::Moment moment_of(const Snapshot& snapshot, const std::string& field);
 
+/// What a surface is made of: the points, with the field that colours.
+Snapshot coloured_points(const draw::Moment& moment);
+
+/// Where a scene is looked at: its solids, and the points at the start. Throws FileError or SceneError of a mesh file.
+draw::Stage stage_of(const Scene& scene, const std::vector<float>& points);
+
 /// Fields that can colour a frame.
 std::vector<std::string> fields_of(const Snapshot& snapshot);
 
