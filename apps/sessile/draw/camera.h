@@ -25,11 +25,12 @@ struct Camera {
   Vec3d forward() const;  ///< from the eye to the target
 
   void orbit(double azimuth_by, double elevation_by);  ///< [deg]; elevation stays within +-89.9
-  void pan(double right_by, double up_by);             ///< shares of the picture's height
+  void pan(double right_by, double up_by);             ///< moves what is seen; in shares of the picture's height
   void zoom(double factor);                            ///< distance divided by it
 
-  /// Puts the box, with a margin, into a picture of that width over height; keeps the direction.
-  void fit(const Vec3d& low, const Vec3d& high, double aspect);
+  /// Puts the box, with a margin, into a picture of that width over height, as large as it goes; keeps the direction.
+  /// `kept_below` is the share of the height that stays free at the bottom, for a legend.
+  void fit(const Vec3d& low, const Vec3d& high, double aspect, double kept_below = 0);
 
   Matrix view() const;
   /// Near and far planes enclose a ball around the target of that radius [m].

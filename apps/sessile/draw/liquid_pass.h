@@ -1,0 +1,5 @@
+#pragma once
+
+namespace sessile::draw {
+class LiquidPass {};
+}  // namespace sessile::draw
