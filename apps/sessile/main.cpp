@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   int exit_code = app::done;
   app::add_run(program, exit_code);
   app::add_picture(program, exit_code);
+  app::add_view(program, exit_code);
   app::add_compare(program, exit_code);
   app::add_bench(program, exit_code);
   app::add_check(program, exit_code);

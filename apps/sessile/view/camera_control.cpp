@@ -24,7 +24,8 @@ bool follow_mouse(draw::Camera& camera, float height) {
     camera.zoom(std::pow(zoom_per_notch, static_cast<double>(io.MouseWheel)));
     changed = true;
   }
-  const double across = static_cast<double>(io.MouseDelta.x / height), down = static_cast<double>(io.MouseDelta.y / height);
+  const double across = static_cast<double>(io.MouseDelta.x / height),
+               down = static_cast<double>(io.MouseDelta.y / height);
   if (across == 0 && down == 0) return changed;
   const bool left = ImGui::IsMouseDown(ImGuiMouseButton_Left);
   if (ImGui::IsMouseDown(ImGuiMouseButton_Middle) || (left && io.KeyShift)) {

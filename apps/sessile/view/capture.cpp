@@ -25,7 +25,8 @@ std::filesystem::path Capture::free_name(double time, const char* extension) con
   const std::string stem = fmt::format("view_{}_{:.4f}s", name_, time);
   std::filesystem::path file = folder_ / (stem + extension);
   std::error_code error;
-  for (int k = 2; std::filesystem::exists(file, error); ++k) file = folder_ / fmt::format("{}_{}{}", stem, k, extension);
+  for (int k = 2; std::filesystem::exists(file, error); ++k)
+    file = folder_ / fmt::format("{}_{}{}", stem, k, extension);
   return file;
 }
 

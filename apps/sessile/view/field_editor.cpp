@@ -1,7 +1,7 @@
 #include "view/field_editor.h"
 
 #include <fmt/format.h>
-#include <imgui/imgui.h>
+#include <imgui.h>
 
 #include <type_traits>
 
@@ -122,7 +122,7 @@ class Editor {
     } else if constexpr (std::is_same_v<T, std::string>) {
       return edit_text(value_);
     } else if constexpr (std::is_same_v<T, Vec3d>) {
-      return edit_vector(value_, f.range, f.unit);
+      return edit_vector(value_, f.range);
     } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
       return edit_texts(value_);
     } else if constexpr (std::is_same_v<T, std::vector<double>>) {

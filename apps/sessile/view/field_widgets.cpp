@@ -1,8 +1,8 @@
 #include "view/field_widgets.h"
 
 #include <fmt/format.h>
-#include <imgui/imgui.h>
-#include <imgui/imgui_stdlib.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ constexpr double small_value = 1e-3;
 /// A pixel of dragging, as a share of the value or of its range.
 float drag_speed(double value, Range range) {
   if (std::isfinite(range.low) && std::isfinite(range.high)) return static_cast<float>(2e-3 * (range.high - range.low));
-  return static_cast<float>(std::max(5e-3 * std::abs(value), 1e-6));
+  return value == 0 ? 0.01F : static_cast<float>(5e-3 * std::abs(value));
 }
 
 /// The parts of a text between commas, without blanks around them.
@@ -82,7 +82,7 @@ bool edit_whole_number(int& value, Range range) {
   return ImGui::DragInt("##whole", &value, 0.2F, low, high);
 }
 
-bool edit_vector(Vec3d& value, Range range, std::string_view unit) {
+bool edit_vector(Vec3d& value, Range range) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   bool changed = false;
@@ -91,12 +91,9 @@ bool edit_vector(Vec3d& value, Range range, std::string_view unit) {
     ImGui::PushID(static_cast<int>(k));
     if (k > 0) ImGui::SameLine(0, gap);
     ImGui::SetNextItemWidth(width);
-    // A component of 0 would hardly move if its own size set the speed.
-    Range free = range;
-    changed |= edit_component("##part", *parts[k], free, "%.4g");
+    changed |= edit_component("##part", *parts[k], range, "%.4g");
     ImGui::PopID();
   }
-  (void)unit;
   return changed;
 }
 

@@ -14,7 +14,7 @@ namespace sessile::viewer {
 
 bool edit_number(double& value, Range range, std::string_view unit);
 bool edit_whole_number(int& value, Range range);
-bool edit_vector(Vec3d& value, Range range, std::string_view unit);
+bool edit_vector(Vec3d& value, Range range);
 bool edit_switch(bool& value);
 bool edit_text(std::string& value);
 bool edit_texts(std::vector<std::string>& values);  ///< as one text, with commas

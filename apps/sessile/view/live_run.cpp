@@ -2,12 +2,13 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
 #include "sessile/core/error.h"
 #include "sessile/measure/diagnostics.h"
-#include "view/moments.h"
+#include "shown.h"
 
 namespace sessile::viewer {
 namespace {
@@ -76,7 +77,7 @@ LiveNews LiveRun::take() {
 
 void LiveRun::work(const std::stop_token& stop) {
   if (threads_ > 0) omp_set_num_threads(threads_);  // holds for the thread that says it
-  tell_scene(true);
+  tell_stage();
   hand_over(true);
   while (!stop.stop_requested()) {
     obey(next_orders(stop));
@@ -103,10 +104,7 @@ void LiveRun::obey(Orders orders) {
   if (orders.reset) start_anew(std::move(*orders.reset));
   if (orders.change) take_over(std::move(*orders.change));
   if (orders.speed) speed_ = *orders.speed;
-  if (orders.field) {
-    field_ = std::move(*orders.field);
-    hand_over(true);
-  }
+  if (orders.field) change_field(std::move(*orders.field));
   if (orders.play && !*orders.play) {
     steps_left_ = 0;
     if (state_ == LiveState::playing) {
@@ -123,6 +121,7 @@ void LiveRun::obey(Orders orders) {
 void LiveRun::start_anew(Scene scene) {
   try {
     Simulation fresh(std::move(scene));
+    stage_ = app::stage_of(fresh.scene());
     simulation_ = std::move(fresh);
   } catch (const std::exception& e) {
     fail(e.what());
@@ -132,7 +131,7 @@ void LiveRun::start_anew(Scene scene) {
   milliseconds_ = 0;
   fail("");
   if (state_ != LiveState::playing) settle(LiveState::paused);
-  tell_scene(true);
+  tell_stage();
   hand_over(true);
 }
 
@@ -145,7 +144,7 @@ void LiveRun::take_over(Scene scene) {
   }
   if (state_ != LiveState::failed) fail("");
   if (state_ == LiveState::ended && !simulation_.finished()) settle(LiveState::paused);
-  tell_scene(false);
+  tell_scene();
   hand_over(true);
 }
 
@@ -176,7 +175,7 @@ void LiveRun::hand_over(bool at_once) {
   }
   handed_over_ = now;
   if (state_ == LiveState::failed) return;
-  draw::Moment moment = moment_of(simulation_, field_);
+  draw::Moment moment = app::moment_of(simulation_, field_, stage_);
   LiveSample measured = sample();
   std::optional<draw::Moment> replaced;  // freed after the lock
   const std::lock_guard lock(mutex_);
@@ -203,16 +202,31 @@ LiveSample LiveRun::sample() const {
   return s;
 }
 
-void LiveRun::tell_scene(bool anew) {
+/// Tells which scene runs from now on, and what can colour it. A force that is gone colours no longer.
+void LiveRun::tell_scene() {
   Scene scene = simulation_.scene();
-  std::vector<std::string> names = simulation_.acceleration_names();
+  std::vector<std::string> fields = app::shown_fields(simulation_);
+  if (std::find(fields.begin(), fields.end(), field_) == fields.end()) field_ = "speed";
   const std::lock_guard lock(mutex_);
   news_.scene = std::move(scene);
-  news_.accelerations = std::move(names);
-  if (!anew) return;
-  news_.anew = true;
+  news_.fields = std::move(fields);
+}
+
+/// The same of a new simulation; what has not been taken of the one before is dropped.
+void LiveRun::tell_stage() {
+  tell_scene();
+  std::optional<draw::Stage> stage(stage_);
+  const std::lock_guard lock(mutex_);
+  std::swap(news_.stage, stage);
   news_.moment.reset();
   news_.samples.clear();
+}
+
+void LiveRun::change_field(std::string field) {
+  const std::vector<std::string> fields = app::shown_fields(simulation_);
+  if (std::find(fields.begin(), fields.end(), field) == fields.end()) return;
+  field_ = std::move(field);
+  hand_over(true);
 }
 
 void LiveRun::fail(const std::string& fault, std::optional<LiveState> state) {

@@ -35,11 +35,11 @@ struct LiveSample {
 
 /// What has happened since one last asked.
 struct LiveNews {
-  std::optional<draw::Moment> moment;      ///< the newest, when there is one that was not taken yet
-  std::vector<LiveSample> samples;         ///< of every moment that was handed over, taken or not
-  std::optional<Scene> scene;              ///< as it runs from now on: at the start, after a reset or a change
-  std::vector<std::string> accelerations;  ///< with `scene`: names for colour_by(), after "acceleration_"
-  bool anew = false;                       ///< whether a new simulation took the place of the one before
+  std::optional<draw::Moment> moment;  ///< the newest, when there is one that was not taken yet
+  std::vector<LiveSample> samples;     ///< of every moment that was handed over, taken or not
+  std::optional<Scene> scene;          ///< as it runs from now on: at the start, after a reset or a change
+  std::vector<std::string> fields;     ///< with `scene`: what could colour it
+  std::optional<draw::Stage> stage;    ///< when a new simulation took the place of the one before, and at the start
   LiveState state = LiveState::paused;
   std::string fault;  ///< why a step, reset or change failed; stays until one succeeds
 };
@@ -84,7 +84,9 @@ class LiveRun {
   void take_over(Scene scene);
   void advance();
   void hand_over(bool at_once);
-  void tell_scene(bool anew);
+  void tell_scene();
+  void tell_stage();
+  void change_field(std::string field);
   void fail(const std::string& fault, std::optional<LiveState> state = {});
   void settle(LiveState state);
   void set_pace();
@@ -96,6 +98,7 @@ class LiveRun {
   int threads_;
   LiveState state_ = LiveState::paused;
   int steps_left_ = 0;
+  draw::Stage stage_;
   std::string field_ = "speed";
   std::optional<double> speed_ = 1;
   Clock::time_point start_ = Clock::now(), pace_start_ = start_, handed_over_{};

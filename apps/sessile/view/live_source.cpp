@@ -1,14 +1,14 @@
 #include "view/live_source.h"
 
 #include <fmt/format.h>
-#include <imgui/imgui.h>
+#include <imgui.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 
 #include "sessile/output/check.h"
 #include "sessile/scene/tuning.h"
 #include "sessile/scene/validate.h"
-#include "view/moments.h"
 #include "view/widgets.h"
 
 namespace sessile::viewer {
@@ -35,11 +35,7 @@ std::string state_text(LiveState state) {
 }  // namespace
 
 LiveSource::LiveSource(Simulation simulation, int threads)
-    : running_(simulation.scene()),
-      wanted_(running_),
-      stage_(stage_of(running_, interleaved(simulation.particles().position))),
-      run_(std::move(simulation), threads),
-      history_(followed) {
+    : running_(simulation.scene()), wanted_(running_), run_(std::move(simulation), threads), history_(followed) {
   notes_.marks_resets = true;
 }
 
@@ -49,19 +45,23 @@ bool LiveSource::update() {
   fault_ = news.fault;
   if (news.scene) {
     running_ = std::move(*news.scene);
-    accelerations_ = std::move(news.accelerations);
+    fields_ = std::move(news.fields);
     judge();
   }
-  if (news.anew) history_.clear();
+  const bool anew = news.stage.has_value();
+  if (anew) {
+    stage_ = std::move(*news.stage);
+    history_.clear();
+    now_ = {};
+  }
   follow(news.samples);
-  if (news.anew && news.moment) stage_ = stage_of(running_, news.moment->points);
   if (news.moment) {
     waiting_ = false;
     if (surface_) surfaces_.make(*news.moment, running_.spacing, *surface_);
     moment_ = std::move(news.moment);
     fresh_ = true;
   }
-  return news.anew;
+  return anew;
 }
 
 void LiveSource::follow(const std::vector<LiveSample>& samples) {
@@ -91,8 +91,6 @@ std::optional<draw::Moment> LiveSource::take_moment() {
 bool LiveSource::moves() const {
   return state_ == LiveState::playing || waiting_ || fresh_ || (surface_ && surfaces_.busy());
 }
-
-std::vector<std::string> LiveSource::fields() const { return fields_of(accelerations_); }
 
 void LiveSource::want_surface(const std::optional<SurfaceSettings>& settings) {
   surface_ = settings;

@@ -22,7 +22,7 @@ class LiveSource final : public Source {
   bool moves() const override;
   const History& history() const override { return history_; }
   double time() const override { return now_.time; }
-  std::vector<std::string> fields() const override;
+  std::vector<std::string> fields() const override { return fields_; }
   void colour_by(const std::string& field) override { run_.colour_by(field); }
   void want_surface(const std::optional<SurfaceSettings>& settings) override;
   void act(Action action) override;
@@ -46,7 +46,7 @@ class LiveSource final : public Source {
   LiveSample now_;
   std::optional<draw::Moment> moment_;  // the newest without a surface
   bool fresh_ = false;                  // whether it was not taken yet
-  std::vector<std::string> accelerations_;
+  std::vector<std::string> fields_;
   std::string fault_;
   History history_;
   double step_milliseconds_ = 0, pace_ = 0;  // smoothed; simulated seconds per wall second

@@ -1,7 +1,7 @@
 #include "view/plots.h"
 
 #include <fmt/format.h>
-#include <imgui/imgui.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>

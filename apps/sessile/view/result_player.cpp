@@ -5,8 +5,8 @@
 #include <exception>
 #include <utility>
 
-#include "sessile/surface/reconstruct.h"
-#include "view/moments.h"
+#include "shown.h"
+#include "view/surface_maker.h"
 
 namespace sessile::viewer {
 namespace {
@@ -27,8 +27,10 @@ std::size_t distance(std::size_t a, std::size_t b) { return a > b ? a - b : b - 
 
 }  // namespace
 
-ResultPlayer::ResultPlayer(Results results)
-    : results_(std::move(results)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+ResultPlayer::ResultPlayer(Results results, draw::Stage stage)
+    : results_(std::move(results)),
+      stage_(std::move(stage)),
+      thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 void ResultPlayer::show(FrameWish wish) {
   {
@@ -76,11 +78,10 @@ void ResultPlayer::fulfil(const FrameWish& wish) {
   std::string fault;
   try {
     const auto snapshot = frame(wish.frame);
-    moment = moment_of(*snapshot, wish.field);
-    if (wish.surface) {
-      moment->surface = reconstruct(coloured_points(*moment), results_.scene.spacing, *wish.surface);
-    }
-    fields = fields_of(*snapshot);
+    fields = app::shown_fields(*snapshot);
+    const bool there = std::find(fields.begin(), fields.end(), wish.field) != fields.end();
+    moment = app::moment_of(*snapshot, there ? wish.field : "", stage_);
+    if (wish.surface) add_surface(*moment, results_.scene.spacing, *wish.surface);
   } catch (const std::exception& e) {
     fault = e.what();
     moment.reset();

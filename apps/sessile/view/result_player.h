@@ -17,8 +17,8 @@ namespace sessile::viewer {
 
 /// What of a run's results one would like to see.
 struct FrameWish {
-  std::size_t frame = 0;  ///< place in the list of frames
-  std::string field = "speed";
+  std::size_t frame = 0;                   ///< place in the list of frames
+  std::string field;                       ///< that colours; "" or one that is not there: speed
   std::optional<SurfaceSettings> surface;  ///< of the surface to make, if one is wanted
 };
 
@@ -34,7 +34,7 @@ struct FrameNews {
 /// Reads frames in a thread of its own: the one wished for, then those after it, and looks for new ones.
 class ResultPlayer {
  public:
-  explicit ResultPlayer(Results results);
+  ResultPlayer(Results results, draw::Stage stage);
   ResultPlayer(const ResultPlayer&) = delete;
   ResultPlayer& operator=(const ResultPlayer&) = delete;
 
@@ -51,6 +51,7 @@ class ResultPlayer {
 
   // The thread's own.
   Results results_;
+  draw::Stage stage_;
   std::map<std::size_t, std::shared_ptr<const Snapshot>> cache_;  // by place
 
   // Both sides'.

@@ -1,13 +1,13 @@
 #include "view/result_source.h"
 
 #include <fmt/format.h>
-#include <imgui/imgui.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 
 #include "compare/outcome.h"
-#include "view/moments.h"
+#include "shown.h"
 #include "view/widgets.h"
 
 namespace sessile::viewer {
@@ -45,9 +45,9 @@ ResultSource::ResultSource(Results results)
     : scene_(results.scene),
       folder_(results.folder),
       frames_(results.frames),
-      stage_(stage_of(scene_, read_frame(frames_.front().file).points)),
+      stage_(app::stage_of(scene_)),
       history_(followed_series()),
-      player_(std::move(results)) {
+      player_(std::move(results), stage_) {
   read_history();
   player_.show(wish_);
 }
@@ -64,12 +64,11 @@ bool ResultSource::update() {
     read_history();
   }
   if (news.moment) {
-    waiting_ = news.frame != wish_.frame || news.moment->field != wish_.field;
+    waiting_ = news.frame != wish_.frame;
     shown_ = std::min(news.frame, frames_.size() - 1);
     particles_ = news.moment->points.size() / 3;
     fields_ = std::move(news.fields);
     moment_ = std::move(news.moment);
-    if (waiting_ && news.frame == wish_.frame && !fields_.empty()) waiting_ = false;  // it holds no such field
   }
   if (!fault_.empty()) {
     waiting_ = false;

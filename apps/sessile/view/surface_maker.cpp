@@ -4,9 +4,14 @@
 #include <utility>
 
 #include "sessile/surface/reconstruct.h"
-#include "view/moments.h"
 
 namespace sessile::viewer {
+
+void add_surface(draw::Moment& moment, double spacing, const SurfaceSettings& settings) {
+  Snapshot points{moment.time, 0, moment.points, {}};
+  if (!moment.values.empty()) points.columns.push_back({moment.field, moment.unit, 1, moment.values});
+  moment.surface = reconstruct(points, spacing, settings);
+}
 
 SurfaceMaker::SurfaceMaker() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
@@ -46,7 +51,7 @@ void SurfaceMaker::work(const std::stop_token& stop) {
     }
     std::string fault;
     try {
-      now->moment.surface = reconstruct(coloured_points(now->moment), now->spacing, now->settings);
+      add_surface(now->moment, now->spacing, now->settings);
     } catch (const std::exception& e) {
       fault = e.what();
     }

@@ -11,6 +11,9 @@
 
 namespace sessile::viewer {
 
+/// Puts a surface around a moment's particles; it carries the field that colours.
+void add_surface(draw::Moment& moment, double spacing, const SurfaceSettings& settings);
+
 /// Puts surfaces around moments in a thread of its own. Of moments that come faster than surfaces are made, the newest
 /// gets one.
 class SurfaceMaker {

@@ -1,6 +1,6 @@
 #include "view/theme.h"
 
-#include <imgui/imgui.h>
+#include <imgui.h>
 
 namespace sessile::viewer {
 

@@ -4,15 +4,16 @@
 #include <epoxy/gl.h>
 
 #include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
 #include <fmt/format.h>
-#include <imgui/backends/imgui_impl_glfw.h>
-#include <imgui/backends/imgui_impl_opengl3.h>
-#include <imgui/imgui.h>
+#include <imgui.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
+#include "draw/ink.h"
+#include "say.h"
 #include "sessile/core/error.h"
 #include "view/theme.h"
 
@@ -67,6 +68,8 @@ Window::Window(const std::string& title, int width, int height) {
     glfwTerminate();
     throw Error(fmt::format("no window with OpenGL 3.3 can be opened: {}; {}", words, way_out));
   }
+  glfwSetErrorCallback(
+      [](int, const char* words) { app::say(stderr, fmt::format("sessile: the window: {}\n", words)); });
   glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
@@ -86,7 +89,7 @@ Window::Window(const std::string& title, int width, int height) {
   ImGui::GetIO().IniFilename = nullptr;              // nothing is left in the user's folder
   ImGui::GetIO().ConfigDragClickToInputText = true;  // a click on a number lets one type
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
-  load_font(font_pixels * scale_);
+  draw::load_letters(font_pixels * scale_);
   set_theme(scale_);
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the callbacks above as well
   ImGui_ImplOpenGL3_Init("#version 330 core");
@@ -142,22 +145,6 @@ void Window::end_frame() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(window_);
-}
-
-void load_font(float pixels) {
-  // Where Debian, Fedora and Arch put it.
-  for (const char* file :
-       {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-        "/usr/share/fonts/TTF/DejaVuSans.ttf"}) {
-    std::error_code error;
-    if (!std::filesystem::exists(file, error)) continue;
-    // Superscripts and Greek letters of units are beyond Latin.
-    static constexpr ImWchar letters[] = {0x20, 0xff, 0x370, 0x3ff, 0x2000, 0x22ff, 0};
-    if (ImGui::GetIO().Fonts->AddFontFromFileTTF(file, pixels, nullptr, letters) != nullptr) return;
-  }
-  ImFontConfig config;
-  config.SizePixels = pixels;
-  ImGui::GetIO().Fonts->AddFontDefault(&config);
 }
 
 }  // namespace sessile::viewer

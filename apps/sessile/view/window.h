@@ -1,14 +1,11 @@
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "view/keys.h"
 
 struct GLFWwindow;
-struct ImFont;
 
 namespace sessile::viewer {
 
@@ -54,8 +51,5 @@ class Window {
   std::vector<Action> actions_;
   bool events_ = true;
 };
-
-/// A font for ImGui's current context: DejaVu Sans where it is installed, else ImGui's own.
-void load_font(float pixels);
 
 }  // namespace sessile::viewer
