@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
+#include "view/field_editor.h"
 #include "view/plots.h"
 #include "view/widgets.h"
 
