@@ -170,6 +170,14 @@ void main() {
 
 }  // namespace
 
+void Light::set(const gl::Program& program, const Lens& seen_by) const {
+  const auto turned = [&](const Vec3d& v) {
+    return Vec3d{dot(v, seen_by.right), dot(v, seen_by.upward), dot(v, seen_by.backward)};
+  };
+  program.set("lamp", turned(lens.backward));
+  program.set("above", turned(up));
+}
+
 LightPass::LightPass()
     : look_around_("crevices and shadows", {glsl_lens, glsl_noise}, glsl_whole_picture, look_around_fragment),
       blur_("evening out", {glsl_lens}, glsl_whole_picture, blur_fragment),
@@ -215,9 +223,7 @@ void LightPass::draw(const gl::Target& scene, const gl::Target& rough, const gl:
   shade_.bind("visible_map", 3, rough.color());
   shade_.set("near_by", near_by);
   shade_.set("shadow_depth", light.shadow_depth);
-  const Vec3d& lamp = light.lens.backward;
-  shade_.set("lamp", Vec3d{dot(lamp, lens.right), dot(lamp, lens.upward), dot(lamp, lens.backward)});
-  shade_.set("above", Vec3d{dot(light.up, lens.right), dot(light.up, lens.upward), dot(light.up, lens.backward)});
+  light.set(shade_, lens);
   draw_whole_picture();
 }
 

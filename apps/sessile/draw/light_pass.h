@@ -11,6 +11,9 @@ struct Light {
   Vec3d up{0, 0, 1};
   double spacing = 1;       ///< of the particles: the scale of what touches [m]
   double shadow_depth = 1;  ///< how dark shadows are, 0 to 1
+
+  /// Says to a program with glsl_surroundings where the lamp and the zenith are.
+  void set(const gl::Program& program, const Lens& seen_by) const;
 };
 
 /// Lights what ScenePass has drawn: a sky all around, less where things are close to each other, and a lamp with

@@ -181,8 +181,16 @@ struct Painter::Impl {
   }
 
   GLuint add_liquid(const Lens& lens, const Light& light, const Appearance& appearance) {
-    (void)lens, (void)light, (void)appearance;
-    return targets->lit.color();
+    LiquidView view;
+    view.lens = lens;
+    view.light = light;
+    view.spacing = stage.spacing;
+    view.clip = appearance.clip;
+    view.scene = &targets->scene;
+    view.lit = targets->lit.color();
+    view.width = targets->rough.width();
+    view.height = targets->rough.height();
+    return appearance.look == Look::surface ? liquid_pass.draw(view, skin) : liquid_pass.draw(view, spheres);
   }
 };
 

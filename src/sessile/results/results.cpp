@@ -91,7 +91,9 @@ std::string scene_in_summary(const fs::path& file) {
   return Json::writeString(Json::StreamWriterBuilder(), summary["scene"]);
 }
 
-Scene scene_of(const fs::path& folder) {
+}  // namespace
+
+Scene read_result_scene(const fs::path& folder) {
   std::error_code ignored;
   const fs::path own = folder / "scene.json", summary = folder / "summary.json";
   try {
@@ -104,15 +106,13 @@ Scene scene_of(const fs::path& folder) {
       fmt::format("{} holds neither scene.json nor summary.json: is it a folder of `sessile run`?", folder.string()));
 }
 
-}  // namespace
-
 Results open_results(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
     const std::string why = error ? error.message() : "it is no folder";
     throw FileError(fmt::format("cannot open the results in {}: {}", folder.string(), why));
   }
-  Results results{folder, scene_of(folder), {}};
+  Results results{folder, read_result_scene(folder), {}};
   for (const std::string_view format : formats) {
     if (results.frames.empty()) results.frames = frames_in(folder, format);
   }
