@@ -79,6 +79,10 @@ void Simulation::look_around() {
   equal_masses_ =
       sum(masses.size(), [&](int i) { return masses[static_cast<std::size_t>(i)] == masses[0] ? 0.0 : 1.0; }) == 0;
   compute_density(view(), density_);
+  find_normals();
+}
+
+void Simulation::find_normals() {
   const bool wanted = std::any_of(scene_.forces.begin(), scene_.forces.end(), [](const Force& force) {
     return std::visit([](const auto& model) { return model.uses_normals; }, force);
   });
@@ -275,14 +279,6 @@ void Simulation::let_in_new_layers() {
   }
   totals_.energy.emitted += units_.particle_mass() * energy;
   last_step_.kinetic_energy += units_.particle_mass() * energy;
-}
-
-double Simulation::tension() const {
-  double sum = 0;
-  for (const Force& force : scene_.forces) {
-    sum += std::visit([&](const auto& model) { return model.tension(units_); }, force);
-  }
-  return sum;
 }
 
 bool Simulation::finished() const { return time_ >= scene_.time.end - 1e-6 * last_step_.dt; }

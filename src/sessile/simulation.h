@@ -83,6 +83,11 @@ class Simulation {
   /// One step of Algorithm 1. Throws RunError when a particle's position is no longer finite.
   void step();
 
+  /// Goes on with other values of the parameters that may change between two steps (scene/tuning.h); without a change,
+  /// as if it had not been called. A speed of sound that was found at the start stays unless one is given.
+  /// Throws SceneError, and changes nothing, when the scene is faulty or differs in another parameter.
+  void retune(Scene scene);
+
   const Scene& scene() const { return scene_; }
   double time() const { return time_; }  ///< [s]
   bool finished() const;                 ///< whether time() has reached the scene's end
@@ -111,6 +116,7 @@ class Simulation {
 
  private:
   void look_around();
+  void find_normals();
   void free_velocities_of_divergence(double dt);
   void settle_sound_speed(Array3 liquid);
   double tension() const;

@@ -11,6 +11,7 @@
 #include "sessile/forces/viscosity.h"
 #include "sessile/neighbors/step_view.h"
 #include "sessile/pressure/pressure_force.h"
+#include "sessile/scene/tuning.h"
 #include "sessile/scene/validate.h"
 #include "sessile/simulation.h"
 
@@ -58,6 +59,15 @@ Space make_space(const Scene& scene) {
   set(box.y, size.y, space.period.y, space.inverse_period.y);
   set(box.z, size.z, space.period.z, space.inverse_period.z);
   return space;
+}
+
+/// The scene's solids and, after them, the domain's own walls.
+std::vector<Solid> all_solids(const Scene& scene) {
+  std::vector<Solid> solids = scene.solids;
+  if (scene.domain) {
+    for (Solid& wall : domain_walls(*scene.domain)) solids.push_back(std::move(wall));
+  }
+  return solids;
 }
 
 /// Says which bodies overlap, and which liquid starts inside a solid or outside the domain. `owner` names the body or
@@ -141,10 +151,7 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
   grid_shape_ = GridShape::make(units_.support_radius, scene_.domain ? scene_.domain->min : Vec3d{},
                                 vec_cast<double>(space_.period));
 
-  std::vector<Solid> solids = scene_.solids;
-  if (scene_.domain) {
-    for (Solid& wall : domain_walls(*scene_.domain)) solids.push_back(std::move(wall));
-  }
+  const std::vector<Solid> solids = all_solids(scene_);
   walls_ = make_walls(solids, scene_, grid_shape_, space_, wall_grid_);
   for (const Solid& solid : solids) {
     solids_.emplace_back(solid);
@@ -204,6 +211,29 @@ void Simulation::settle_sound_speed(Array3 liquid) {
         "follows; "
         "give one");
   }
+}
+
+double Simulation::tension() const {
+  double sum = 0;
+  for (const Force& force : scene_.forces) {
+    sum += std::visit([&](const auto& model) { return model.tension(units_); }, force);
+  }
+  return sum;
+}
+
+void Simulation::retune(Scene scene) {
+  std::vector<std::string> faults;
+  for (const Fault& fault : validate(scene)) faults.push_back(text(fault));
+  for (const std::string& path : differing_parameters(tuned(scene_, scene), scene)) {
+    faults.push_back(path + ": cannot change while the simulation runs, only from its start");
+  }
+  if (!faults.empty()) throw SceneError(std::move(faults));
+  if (auto* method = std::get_if<Wcsph>(&scene.pressure); method != nullptr && !method->sound_speed) {
+    method->sound_speed = std::get<Wcsph>(scene_.pressure).sound_speed;
+  }
+  scene_ = std::move(scene);
+  set_materials(all_solids(scene_), scene_.fluid, walls_);
+  find_normals();
 }
 
 std::vector<std::string> Simulation::acceleration_names() const {

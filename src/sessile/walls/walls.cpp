@@ -21,11 +21,8 @@ Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const Gri
   Walls walls;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     const Solid& solid = solids[k];
-    const double viscosity = solid.viscosity.value_or(scene.fluid.viscosity) / scene.fluid.rest_density;
     for (const Vec3d& place : sample_surface(solid, scene.spacing)) {
       walls.position.push_back(vec_cast<Real>(place));
-      walls.adhesion.push_back(static_cast<Real>(solid.adhesion));
-      walls.viscosity.push_back(static_cast<Real>(viscosity));
       walls.solid.push_back(static_cast<std::int32_t>(k));
     }
     walls.labels.push_back(solid.label.empty() ? "solid" + std::to_string(k) : solid.label);
@@ -36,10 +33,9 @@ Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const Gri
   walls.velocity.assign(n, {});
 
   grid.build(walls.position, shape);
-  for (auto* array : {&walls.position.x, &walls.position.y, &walls.position.z, &walls.adhesion, &walls.viscosity}) {
-    put_in_order(*array, grid.order());
-  }
+  for (auto* array : {&walls.position.x, &walls.position.y, &walls.position.z}) put_in_order(*array, grid.order());
   put_in_order(walls.solid, grid.order());
+  set_materials(solids, scene.fluid, walls);
 
   const CubicSpline W(scene.support_radius(), scene.spacing);
   NeighborList list;
@@ -53,6 +49,16 @@ Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const Gri
     psi.set(b, Lanes(Real(1)) / (Lanes(W.at_zero()) + others));
   });
   return walls;
+}
+
+void set_materials(const std::vector<Solid>& solids, const Fluid& fluid, Walls& walls) {
+  walls.adhesion.resize(walls.size());
+  walls.viscosity.resize(walls.size());
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    const Solid& solid = solids[static_cast<std::size_t>(walls.solid[k])];
+    walls.adhesion[k] = static_cast<Real>(solid.adhesion);
+    walls.viscosity[k] = static_cast<Real>(solid.viscosity.value_or(fluid.viscosity) / fluid.rest_density);
+  }
 }
 
 std::size_t Walls::bytes() const { return size() * (9 * sizeof(Real) + sizeof(std::int32_t)); }

@@ -43,4 +43,7 @@ struct Space;
 Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const GridShape& shape, const Space& space,
                  Grid& grid);
 
+/// Gives each sample the adhesion and the viscosity of its solid; `solids` are those the walls were made of.
+void set_materials(const std::vector<Solid>& solids, const Fluid& fluid, Walls& walls);
+
 }  // namespace sessile
