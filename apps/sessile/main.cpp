@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
       "130 interrupted.");
   int exit_code = app::done;
   app::add_run(program, exit_code);
+  app::add_render(program, exit_code);
   app::add_compare(program, exit_code);
   app::add_bench(program, exit_code);
   app::add_check(program, exit_code);

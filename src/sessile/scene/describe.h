@@ -25,4 +25,7 @@ std::string describe(const ResolvedScene& resolved);
 /// The scene as JSON that read_scene() reads back to the same scene; every parameter stands in it.
 std::string to_json(const Scene& scene);
 
+/// Render settings as JSON, every parameter but those left open.
+std::string to_json(const RenderSettings& settings);
+
 }  // namespace sessile

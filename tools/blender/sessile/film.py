@@ -53,7 +53,7 @@ def build(scene, folder, frames, job):
     for index, (label, thing) in enumerate(solids.items()):
         said = look.get(label, {})
         thing.data.materials.append(
-            materials.solid(label, index, said.get("look", "matte"), said.get("color")))
+            materials.solid(label, index, said.get("finish", "matte"), said.get("color")))
         thing.hide_render = thing.hide_viewport = not said.get("visible", True)
     extent = Extent(folder, solids.values())
     liquid = objects.add_liquid(scene.collection, frames[0])
