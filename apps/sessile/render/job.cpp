@@ -16,9 +16,7 @@ std::string job_json(const RenderJob& job) {
   JsonObject text(0);
   text.add("folder", fs::absolute(job.surfaces).string()).add("output", fs::absolute(job.output).string());
   if (!job.blend.empty()) text.add("blend", fs::absolute(job.blend).string());
-  text.add("rate", job.rate)
-      .raw("frames", fmt::format("[{}]", fmt::join(job.frames, ", ")))
-      .raw("settings", indented(settings));
+  text.raw("frames", fmt::format("[{}]", fmt::join(job.frames, ", "))).raw("settings", indented(settings));
   return text.text() + "\n";
 }
 

@@ -16,7 +16,6 @@ struct RenderJob {
   std::filesystem::path output;    ///< folder for the pictures
   std::filesystem::path blend;     ///< a file to save instead of rendering; empty to render
   std::vector<std::int64_t> frames;
-  double rate = 25;  ///< frames per second, for the timeline of `blend`
   RenderSettings settings;
 };
 

@@ -85,12 +85,12 @@ int save_blend(RenderJob& job, const BlenderOptions& options) {
   return done;
 }
 
-int film_of(const RenderJob& job, const std::vector<SurfaceFile>& frames, const fs::path& film) {
+int film_of(const RenderJob& job, const std::vector<SurfaceFile>& frames, double rate, const fs::path& film) {
   std::vector<fs::path> pictures;
   for (const SurfaceFile& each : frames) pictures.push_back(picture_of(job.output, each.number));
-  switch (make_film(pictures, job.rate, film)) {
+  switch (make_film(pictures, rate, film)) {
     case FilmEnd::done:
-      say(stdout, fmt::format("{}: {} frames at {:g} a second\n", film.string(), frames.size(), job.rate));
+      say(stdout, fmt::format("{}: {} frames at {:g} a second\n", film.string(), frames.size(), rate));
       return done;
     case FilmEnd::missing:
       say(stderr, "a film takes ffmpeg, and there is no program `ffmpeg`; on Debian: apt install ffmpeg\n");
@@ -111,7 +111,6 @@ int render(const RenderOptions& options) {
   job.surfaces = surfaces.list.parent_path();
   job.output = options.output.empty() ? results / "render" : fs::path(options.output);
   job.blend = options.blend;
-  job.rate = options.rate > 0 ? options.rate : true_rate(surfaces);
   job.frames = numbers(frames);
   create_output_folder(job.output);
   const BlenderOptions how{options.threads, progress_style(options.progress)};
@@ -129,7 +128,8 @@ int render(const RenderOptions& options) {
   say(stdout, fmt::format("{} frames rendered, {} were there; they are in {}\n", missing.size(),
                           frames.size() - missing.size(), job.output.string()));
   if (options.no_video || (frames.size() == 1 && options.video.empty())) return done;
-  return film_of(job, frames, options.video.empty() ? job.output / "film.mp4" : fs::path(options.video));
+  const double rate = options.rate > 0 ? options.rate : true_rate(surfaces);
+  return film_of(job, frames, rate, options.video.empty() ? job.output / "film.mp4" : fs::path(options.video));
 }
 
 template <Worded T>

@@ -21,7 +21,8 @@ std::string scene_in_summary(const fs::path& results) {
   std::ifstream stream(results / "summary.json", std::ios::binary);
   Json::Value summary;
   std::string errors;
-  if (!stream || !Json::parseFromStream(Json::CharReaderBuilder{}, stream, &summary, &errors) || !summary["scene"].isObject()) {
+  if (!stream || !Json::parseFromStream(Json::CharReaderBuilder{}, stream, &summary, &errors) ||
+      !summary["scene"].isObject()) {
     throw FileError(fmt::format("{} holds no scene.json: it is no folder of results", results.string()));
   }
   return summary["scene"].toStyledString();

@@ -7,7 +7,7 @@ import time
 import bpy
 import numpy as np
 
-from . import camera, materials, objects, quality, stage
+from . import blend, camera, materials, objects, quality, stage
 from .surface_folder import open_folder
 
 LONGEST_FRAME = 1 / 24  # [s]; results further apart are not blurred as if a camera had stood open all the while
@@ -25,8 +25,7 @@ def make_film(job):
     scene = empty_scene()
     liquid = build(scene, folder, frames, job)
     if job.get("blend"):
-        save_blend(scene, liquid, folder, frames, job)
-    if not job.get("render", True):
+        blend.save_blend(scene, liquid, frames, job["blend"])
         return
     out = pathlib.Path(job["output"])
     for frame in frames:
@@ -125,7 +124,3 @@ def render_whole(scene, file):
     scene.render.filepath = str(part)
     bpy.ops.render.render(write_still=True)
     os.replace(part, file)
-
-
-def save_blend(scene, liquid, folder, frames, job):
-    raise NotImplementedError

@@ -19,7 +19,7 @@ class Look:
 
 
 LOOKS = {
-    "water": Look(1.33, (0.10, 0.50, 0.70), depth=0.55),
+    "water": Look(1.33, (0.02, 0.42, 0.72), depth=0.6),
     "clear": Look(1.33, (0.70, 0.88, 0.92)),
     "oil": Look(1.47, (0.72, 0.42, 0.03), depth=0.5),
     "honey": Look(1.49, (0.60, 0.19, 0.005), depth=0.3),
@@ -74,7 +74,7 @@ def absorption(tint, depth):
     return density, tuple(1 - each / density for each in coefficients)
 
 
-SOLID_COLORS = ((0.33, 0.32, 0.31), (0.30, 0.22, 0.16), (0.16, 0.20, 0.25), (0.28, 0.30, 0.22))
+SOLID_COLORS = ((0.62, 0.57, 0.51), (0.30, 0.22, 0.16), (0.16, 0.20, 0.25), (0.28, 0.30, 0.22))
 
 
 def solid(label, index, look="matte", color=None):

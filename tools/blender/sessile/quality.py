@@ -9,7 +9,7 @@ def set_quality(scene, job):
     scene.render.image_settings.color_mode = "RGB"
     scene.render.use_persistent_data = False
     scene.view_settings.view_transform = "Filmic"
-    scene.view_settings.look = "Medium High Contrast"
+    scene.view_settings.look = "High Contrast"
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.samples = job["samples"]
