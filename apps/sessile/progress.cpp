@@ -12,13 +12,6 @@
 namespace sessile::app {
 namespace {
 
-std::string duration_text(double seconds) {
-  const auto whole = static_cast<long long>(seconds + 0.5);
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
-}
-
 /// A line of JSON for a program that reads along.
 void print_line(const Json::Value& line) {
   Json::StreamWriterBuilder compact;
@@ -27,6 +20,13 @@ void print_line(const Json::Value& line) {
 }
 
 }  // namespace
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
 
 ProgressStyle progress_style(const std::string& word) {
   if (word == "plain") return ProgressStyle::plain;
@@ -102,6 +102,36 @@ void Progress::warn(const std::string& message) {
   }
   finish();
   say(stderr, "warning: " + (run_.empty() ? "" : run_ + " ") + message + "\n");
+}
+
+CountProgress::~CountProgress() {
+  if (line_open_) say(stderr, "\n");
+}
+
+void CountProgress::update(std::int64_t done, const std::string& note) {
+  if (style_ == ProgressStyle::none) return;
+  const auto now = Clock::now();
+  const std::chrono::duration<double> pause = now - shown_, wall = now - start_;
+  if (done < total_ && pause.count() < (style_ == ProgressStyle::plain ? 2.0 : 0.2)) return;
+  shown_ = now;
+  const double each = done > 0 ? wall.count() / static_cast<double>(done) : 0;
+  const double left = each * static_cast<double>(total_ - done);
+  if (style_ == ProgressStyle::json) {
+    Json::Value line;
+    line["done"] = static_cast<Json::Int64>(done);
+    line["total"] = static_cast<Json::Int64>(total_);
+    line["note"] = note;
+    line["seconds_each"] = each;
+    line["seconds_left"] = left;
+    print_line(line);
+    return;
+  }
+  const std::string line =
+      fmt::format("{:5.1f} %  {} of {} {}  {}  {:.2f} s each  {} left",
+                  100 * static_cast<double>(done) / static_cast<double>(std::max<std::int64_t>(total_, 1)), done,
+                  total_, things_, note, each, duration_text(left));
+  line_open_ = style_ == ProgressStyle::terminal;
+  say(stderr, line_open_ ? "\r\033[K" + line : line + "\n");
 }
 
 }  // namespace sessile::app

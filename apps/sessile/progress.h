@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,9 @@ enum class ProgressStyle { terminal, plain, json, none };
 
 /// "auto", "plain", "json" or "none"; auto is `terminal` when standard error is one.
 ProgressStyle progress_style(const std::string& word);
+
+/// A span of time for people: `12 s`, `3 min 05 s`, `2 h 10 min`.
+std::string duration_text(double seconds);
 
 /// Shows how far a run is: on standard error for people, on standard output as JSON lines for programs.
 class Progress {
@@ -41,6 +45,30 @@ class Progress {
   std::string run_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_ = start_;
+  bool line_open_ = false;
+};
+
+/// Shows how far work on a number of like things is, such as frames; the same styles.
+class CountProgress {
+ public:
+  /// `things` names them for people, in the plural: "frames".
+  CountProgress(ProgressStyle style, std::string things, std::int64_t total)
+      : style_(style), things_(std::move(things)), total_(total) {}
+  ~CountProgress();
+  CountProgress(const CountProgress&) = delete;
+  CountProgress& operator=(const CountProgress&) = delete;
+
+  /// Called after each of them; `note` says something of the last one: "120034 triangles".
+  void update(std::int64_t done, const std::string& note);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  ProgressStyle style_;
+  std::string things_;
+  std::int64_t total_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point shown_ = start_ - std::chrono::hours(1);
   bool line_open_ = false;
 };
 

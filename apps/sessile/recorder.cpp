@@ -11,6 +11,7 @@
 #include "sessile/output/file.h"
 #include "sessile/output/frames.h"
 #include "sessile/output/snapshot.h"
+#include "sessile/scene/describe.h"
 
 namespace sessile::app {
 namespace {
@@ -26,7 +27,7 @@ double seconds_of(F&& f) {
 bool is_result(std::string name) {
   constexpr std::string_view part = ".part";
   if (name.starts_with('.') && name.ends_with(part)) name = name.substr(1, name.size() - 1 - part.size());
-  if (name == "frames.pvd" || name == "summary.json") return true;
+  if (name == "frames.pvd" || name == "scene.json" || name == "summary.json") return true;
   const auto dot = name.rfind('.');
   const bool known = dot != std::string::npos && find_frame_format(name.substr(dot + 1)) != nullptr;
   return known && (name.starts_with("frame_") || name.starts_with("solids."));
@@ -57,6 +58,8 @@ Recorder::Recorder(const std::filesystem::path& folder, const Simulation& simula
       stats_(folder / "stats.csv", simulation.walls().labels),
       frame_interval_(simulation.scene().output.frame_interval),
       stats_interval_(simulation.scene().output.stats_interval.value_or(0.1 * frame_interval_)) {
+  // At the start already, so that the results of a run that goes on, or was killed, can be opened.
+  write_whole(folder_ / "scene.json", to_json(simulation.scene()));
   output_seconds_ += seconds_of([&] { frames_.write_solids(take_solids(simulation.walls())); });
   record(simulation);
 }

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <csignal>
-#include <mutex>
 
 #include "prepare.h"
 #include "recorder.h"
@@ -13,9 +11,6 @@
 
 namespace sessile::app {
 namespace {
-
-// Set by the signal handler, which may touch nothing else.
-volatile std::sig_atomic_t stop_flag = 0;
 
 /// Says once what the user should know while it happens.
 class Warnings {
@@ -42,32 +37,15 @@ class Warnings {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ctrl-C ends the run after the step at hand; a second one ends the program at once.
-void stop_on_signals() {
-  const auto ask = [](int signal) {
-    stop_flag = 1;
-    std::signal(signal, SIG_DFL);
-  };
-  std::signal(SIGINT, ask);
-  std::signal(SIGTERM, ask);
-  std::signal(SIGPIPE, [](int) { stop_flag = 1; });  // whoever read along has gone, as with Ctrl-C
-  std::signal(SIGXFSZ, SIG_IGN);                     // a file size limit then is an error of the write, with a sentence
-}
-
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
-
-bool stop_asked() { return stop_flag != 0; }
 
 SessionResult run_session(const ResolvedScene& resolved, const SessionOptions& options, const StepWatch& watch) {
   const auto start = Clock::now();
   SessionResult result;
   Simulation simulation = set_up(resolved, options.scene_file);
-  // Only now: until here nothing is written, and a signal may end the program at once. And only once: a signal between
-  // two sessions must not be forgotten.
-  static std::once_flag signals;
-  std::call_once(signals, stop_on_signals);
+  heed_signals();  // only now: until here nothing is written, and a signal may end the program at once
   Recorder recorder(options.folder, simulation);
   Progress progress(options.progress, options.name);
   Warnings warnings;

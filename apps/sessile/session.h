@@ -10,11 +10,9 @@
 #include "sessile/output/summary.h"
 #include "sessile/scene/read.h"
 #include "sessile/simulation.h"
+#include "signals.h"
 
 namespace sessile::app {
-
-/// Whether a signal has asked for the end, since the first session began.
-bool stop_asked();
 
 struct SessionOptions {
   std::string scene_file;  ///< for messages

@@ -24,7 +24,7 @@ class Search(CompareTest):
             self.assertLess(min(unsound), 1.3 * max(sound), "they are not neighbours")
             for trial in method["trials"]:
                 names = self.names("out/" + trial["folder"])
-                self.assertEqual(names, ["stats.csv", "summary.json", "verdict.json"])
+                self.assertEqual(names, ["scene.json", "stats.csv", "summary.json", "verdict.json"])
                 self.assertTrue(trial["sound"] or trial["reason"])
                 self.assertIn(f"({trial['folder']})", self.markdown())
                 steps = self.summary("out/" + trial["folder"])

@@ -115,7 +115,7 @@ class NoRoom(Good):
 
     def test_for_no_frame_at_all(self):
         err = self.limited(1, bodies=[{"shape": {"type": "box", "size": [1, 1, 1]}, "placement": {"position": [0, 0, 1]}}])
-        self.assertIn("out/solids.vtp", err)
+        self.assertIn("out/scene.json", err)
 
     def test_for_the_frames(self):
         # Emitted layers make each frame larger than the one before, until one is too large.

@@ -10,8 +10,8 @@
 #include "blender.h"
 #include "commands.h"
 #include "film.h"
-#include "frame_range.h"
 #include "job.h"
+#include "mesh/selection.h"
 #include "run_options.h"
 #include "say.h"
 #include "sessile/core/error.h"
@@ -61,13 +61,16 @@ std::vector<std::string> overrides_of(const RenderOptions& options) {
   return overrides;
 }
 
-std::vector<SurfaceFile> chosen(const Surfaces& surfaces, const std::string& range) {
-  if (range.empty()) return surfaces.frames;
-  const FrameRange wanted = read_frame_range(range);
+std::vector<SurfaceFile> chosen(const Surfaces& surfaces, const std::string& selection) {
+  if (selection.empty()) return surfaces.frames;
   std::vector<SurfaceFile> frames;
-  std::ranges::copy_if(surfaces.frames, std::back_inserter(frames),
-                       [&](const SurfaceFile& each) { return wanted.holds(each.number); });
-  if (frames.empty()) throw SceneError(fmt::format("--frames {}: {} has none of them", range, surfaces.list.string()));
+  for (const std::size_t place : selected(selection, surfaces.frames.size())) {
+    frames.push_back(surfaces.frames[place]);
+  }
+  if (frames.empty()) {
+    throw SceneError(fmt::format("--frames {}: {} lists {} frames, and none of these", selection,
+                                 surfaces.list.string(), surfaces.frames.size()));
+  }
   return frames;
 }
 
@@ -161,7 +164,7 @@ void add_render(CLI::App& program, int& exit_code) {
   command->add_option("results", options->results, "folder of results")->required()->type_name("DIR");
   command->add_option("-o,--output", options->output, "folder for the pictures (default: DIR/render)")
       ->type_name("DIR");
-  command->add_option("--frames", options->frames, "frames by number, such as 12, 10:20 or 0:100:4")->type_name("A:B");
+  command->add_option("--frames", options->frames, "frames by their place: 10:20, ::5, 0,3,-1")->type_name("LIST");
   add_looks(*command, *options);
   command->add_flag("--again", options->again, "also frames that are rendered already");
   command->add_option("--fps", options->rate, "frames of the film per second (default: as fast as the liquid was)")

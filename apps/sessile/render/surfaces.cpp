@@ -4,6 +4,7 @@
 #include <json/json.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 
@@ -26,6 +27,15 @@ Json::Value read_list(const fs::path& file) {
   return list;
 }
 
+/// A frame's PLY file, which is what Blender reads here; nothing when it was written in other formats only.
+std::string ply_of(const Json::Value& frame) {
+  for (const Json::Value& file : frame["files"]) {
+    if (file.isString() && file.asString().ends_with(".ply")) return file.asString();
+  }
+  const Json::Value& file = frame["file"];
+  return file.isString() && file.asString().ends_with(".ply") ? file.asString() : "";
+}
+
 }  // namespace
 
 Surfaces read_surfaces(const fs::path& results) {
@@ -39,11 +49,13 @@ Surfaces read_surfaces(const fs::path& results) {
   }
   const Json::Value list = read_list(surfaces.list);
   for (const Json::Value& frame : list["frames"]) {
-    if (!frame["number"].isInt64() || !frame["time"].isNumeric() || !frame["file"].isString()) {
-      throw FileError(fmt::format("{} has a frame without number, time or file", surfaces.list.string()));
+    const std::string file = ply_of(frame);
+    if (file.empty() || !frame["number"].isInt64() || !frame["time"].isNumeric()) {
+      throw FileError(fmt::format("{} lists a frame without a PLY file; run `sessile mesh {}` once more",
+                                  surfaces.list.string(), results.string()));
     }
     surfaces.frames.push_back(
-        {frame["number"].asInt64(), frame["time"].asDouble(), surfaces.list.parent_path() / frame["file"].asString()});
+        {frame["number"].asInt64(), frame["time"].asDouble(), surfaces.list.parent_path() / file});
   }
   for (const Json::Value& solid : list["solids"]) surfaces.solids.push_back(solid["label"].asString());
   std::ranges::sort(surfaces.frames, {}, &SurfaceFile::time);

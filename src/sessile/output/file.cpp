@@ -52,9 +52,24 @@ int sync(int descriptor) {
 
 }  // namespace
 
-void write_whole(const fs::path& path, std::string_view bytes) {
+fs::path part_name(const fs::path& path) {
   // The name is the same at every attempt, so that what a killed run left behind is used up by the next one.
-  const fs::path temporary = path.parent_path() / fmt::format(".{}.part", path.filename().string());
+  return path.parent_path() / fmt::format(".{}.part", path.filename().string());
+}
+
+void finish_part(const fs::path& path) {
+  const fs::path temporary = part_name(path);
+  const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
+  int error = descriptor < 0 ? errno : sync(descriptor);
+  if (descriptor >= 0) ::close(descriptor);
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  ::unlink(temporary.c_str());
+  throw failure("write", path, error);
+}
+
+void write_whole(const fs::path& path, std::string_view bytes) {
+  const fs::path temporary = part_name(path);
   const int descriptor = open_for_writing(temporary, 0);
   if (descriptor < 0) throw failure("write", path, errno);
   int error = write_all(descriptor, bytes);

@@ -9,6 +9,13 @@ namespace sessile {
 /// Throws FileError with the path and the system's reason; the old file, if any, then stays and nothing else is left.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 
+/// The name in the same folder under which a file is written before it takes its own: `.file.part`.
+std::filesystem::path part_name(const std::filesystem::path& path);
+
+/// Syncs what has been written under a file's part name, and gives it the file's own.
+/// Throws FileError; then nothing of it is left.
+void finish_part(const std::filesystem::path& path);
+
 /// Makes the folder, and those above it, if they are missing.
 /// Throws FileError when that fails, when `path` is something else, or when nothing may be written into it.
 void create_output_folder(const std::filesystem::path& path);

@@ -27,6 +27,9 @@ struct Results {
 /// Looks into a folder of results. Throws FileError when it is none, holds no frames or no scene.
 Results open_results(const std::filesystem::path& folder);
 
+/// The scene alone, of a folder that may hold no frames. Throws FileError when there is none.
+Scene read_result_scene(const std::filesystem::path& folder);
+
 /// Reads a frame that this program wrote, .vtp or .ply, with all its columns.
 /// Throws FileError with the path and what is wrong: not there, cut short, not ours.
 Snapshot read_frame(const std::filesystem::path& file);

@@ -143,6 +143,12 @@ std::string to_json(const Scene& scene) {
   return writer.take() + "\n";
 }
 
+std::string to_json(const SurfaceSettings& settings) {
+  JsonWriter writer;
+  writer.group(settings, 0);
+  return writer.take() + "\n";
+}
+
 std::string to_json(const RenderSettings& settings) {
   JsonWriter writer;
   writer.group(settings, 0);

@@ -5,6 +5,7 @@
 
 #include "sessile/scene/read.h"
 #include "sessile/scene/scene.h"
+#include "sessile/scene/surface_settings.h"
 
 namespace sessile {
 
@@ -24,6 +25,9 @@ std::string describe(const ResolvedScene& resolved);
 
 /// The scene as JSON that read_scene() reads back to the same scene; every parameter stands in it.
 std::string to_json(const Scene& scene);
+
+/// The same of the settings of a surface.
+std::string to_json(const SurfaceSettings& settings);
 
 /// Render settings as JSON, every parameter but those left open.
 std::string to_json(const RenderSettings& settings);

@@ -18,18 +18,27 @@ namespace {
 /// Offsets below zero stand for overrides: -1 is the first.
 std::ptrdiff_t mark_of(std::size_t override_index) { return -static_cast<std::ptrdiff_t>(override_index) - 1; }
 
+std::vector<Override> split_overrides(std::span<const std::string> overrides) {
+  std::vector<Override> split;
+  for (const auto& each : overrides) split.push_back(split_override(each));
+  return split;
+}
+
+void apply_overrides(std::span<const Override> overrides, Json::Value& root, FaultLines& lines) {
+  for (std::size_t i = 0; i < overrides.size(); ++i) {
+    const Fault fault = apply_override(overrides[i], mark_of(i), root);
+    if (!fault.message.empty()) lines.add(mark_of(i), fault.path, fault.message);
+  }
+}
+
 ResolvedScene resolve(SceneText text, const std::filesystem::path& file, std::span<const std::string> overrides,
                       const FurtherCheck& further) {
   Json::Value root = parsed_or_thrown(text, file);
 
-  std::vector<Override> split;
-  for (const auto& each : overrides) split.push_back(split_override(each));
+  const std::vector<Override> split = split_overrides(overrides);
   FaultLines lines(file.string(), text, split);
   lines.add_repeated_keys();
-  for (std::size_t i = 0; i < split.size(); ++i) {
-    const Fault fault = apply_override(split[i], mark_of(i), root);
-    if (!fault.message.empty()) lines.add(mark_of(i), fault.path, fault.message);
-  }
+  apply_overrides(split, root, lines);
 
   ResolvedScene resolved;
   ValueReader reader(text, std::filesystem::absolute(file).parent_path());
@@ -69,6 +78,20 @@ ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<c
 
 ResolvedScene read_resolved_text(std::string text, const std::string& name, std::span<const std::string> overrides) {
   return resolve(SceneText(std::move(text)), name, overrides, {});
+}
+
+SurfaceSettings with_overrides(const SurfaceSettings& settings, std::span<const std::string> overrides) {
+  SceneText nothing("{}");
+  Json::Value root = parsed_or_thrown(nothing, "");
+  const std::vector<Override> split = split_overrides(overrides);
+  FaultLines lines("", nothing, split);
+  apply_overrides(split, root, lines);
+  SurfaceSettings result = settings;
+  ValueReader reader(nothing, {});
+  reader.read(root, "", any_number, "", result);
+  for (const auto& found : reader.faults()) lines.add(found.offset, found.path, found.message);
+  lines.throw_any();
+  return result;
 }
 
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {

@@ -10,6 +10,7 @@
 
 #include "sessile/scene/fault.h"
 #include "sessile/scene/scene.h"
+#include "sessile/scene/surface_settings.h"
 
 namespace sessile {
 
@@ -36,6 +37,10 @@ ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<c
 /// The same of a scene that is at hand as text; `name` stands for the file in messages.
 ResolvedScene read_resolved_text(std::string text, const std::string& name,
                                  std::span<const std::string> overrides = {});
+
+/// The settings of a surface with overrides put over them, as those of a scene: "cube_size=0.5", "method.type=density".
+/// Throws SceneError with every fault.
+SurfaceSettings with_overrides(const SurfaceSettings& settings, std::span<const std::string> overrides);
 
 /// The scene alone.
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});

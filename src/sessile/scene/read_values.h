@@ -118,7 +118,9 @@ class ValueReader {
     if (name.empty()) return;
     if (name == keep) name = name_of(value);
     for_each_alternative<Choice>([&]<Named T>(std::type_identity<T>) {
-      if (T::name == name) read_group(json, path, value.template emplace<T>(), true);
+      if (T::name != name) return;
+      T* const held = std::get_if<T>(&value);  // what the text does not give stays, as in other groups
+      read_group(json, path, held != nullptr ? *held : value.template emplace<T>(), true);
     });
   }
 

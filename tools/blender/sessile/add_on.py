@@ -19,7 +19,7 @@ def import_folder(context, file, start=0, speed=1.0, margin=0.5, look="water", w
                 objects.add_solids(collection, folder, margin * folder.spacing).items()):
             thing.data.materials.append(materials.solid(label, index))
     liquid = objects.add_liquid(collection, folder.frames[0])
-    liquid.data.materials.append(materials.liquid(look, max(liquid.dimensions) or 1.0))
+    liquid.data.materials.append(materials.liquid(look, folder.frames[0].mesh().volume() ** (1 / 3) or 1.0))
     sequence.follow(liquid, folder, start, speed)
     scene.frame_start, scene.frame_end = start, sequence.last_frame(scene, folder, start, speed)
     sequence.update(scene, liquid)

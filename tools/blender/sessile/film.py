@@ -87,7 +87,7 @@ class Extent:
             if len(mesh.triangles) == 0:
                 continue
             clouds.append(mesh.points[:: max(1, len(mesh.points) // points_each)])
-            volumes.append(enclosed_volume(mesh))
+            volumes.append(mesh.volume())
         fixed = [objects.corners(thing) for thing in solids if not thing.hide_render]
         self.points = self._framed(clouds, fixed)
         low, high = self.points.min(axis=0), self.points.max(axis=0)
@@ -109,13 +109,6 @@ class Extent:
         liquid = np.concatenate(clouds)
         near = np.all((liquid > low - reach) & (liquid < high + reach), axis=1)
         return np.concatenate([solid, liquid[near]])
-
-
-def enclosed_volume(mesh):
-    """[m^3]"""
-    centre = mesh.points.mean(axis=0, dtype=np.float64)
-    a, b, c = (mesh.points[mesh.triangles[:, i]] - centre for i in range(3))
-    return abs(float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum())) / 6
 
 
 def render_whole(scene, file):

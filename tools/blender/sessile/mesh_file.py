@@ -24,6 +24,14 @@ class Mesh:
     normals: np.ndarray | None  # (n, 3) float32, of length 1
     attributes: dict  # name to (n,) or (n, 3) float32 or int32
 
+    def volume(self):
+        """What a closed surface encloses [m^3]."""
+        if len(self.triangles) == 0:
+            return 0.0
+        centre = self.points.mean(axis=0, dtype=np.float64)
+        a, b, c = (self.points[self.triangles[:, corner]] - centre for corner in range(3))
+        return abs(float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum())) / 6
+
 
 def read_mesh(path):
     """Reads a mesh. Raises MeshFileError, or OSError where the file cannot be had."""

@@ -56,7 +56,7 @@ def open_folder(path):
         raise FolderError(f"{path} holds no surface.json; `sessile mesh` writes one")
     try:
         said = json.loads(file.read_text(encoding="utf-8"))
-        frames = [Frame(each["number"], each["time"], file.parent / each["file"]) for each in said["frames"]]
+        frames = [Frame(each["number"], each["time"], file.parent / _ply_of(each)) for each in said["frames"]]
         solids = [SolidFile(each["label"], file.parent / each["file"]) for each in said.get("solids", [])]
         folder = SurfaceFolder(file.parent, said["spacing"], tuple(said.get("up", (0, 0, 1))),
                                sorted(frames, key=lambda frame: frame.time), solids)
@@ -65,3 +65,8 @@ def open_folder(path):
     if not folder.frames:
         raise FolderError(f"{file} names no frames")
     return folder
+
+
+def _ply_of(frame):
+    """The name of a frame's PLY file among those in other formats."""
+    return next((name for name in frame.get("files", ()) if name.endswith(".ply")), frame["file"])

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sessile/output/frames.h"
+#include "sessile/output/surfaces.h"
+#include "sessile/output/usda.h"
+#include "sessile/results/results.h"
+#include "sessile/scene/solid_mesh.h"
+#include "sessile/scene/surface_settings.h"
+#include "surface_index.h"
+
+namespace sessile::app {
+
+/// How surfaces are made, and in which formats they are written.
+struct SurfacePlan {
+  SurfaceSettings settings{};
+  std::vector<std::string> formats{"ply"};
+  double spacing = 0;             ///< of the particles [m]
+  double frames_per_second = 25;  ///< of simulated time, for formats that count in frames
+};
+
+/// Writes a surface into a file of one of the formats, whole or not at all. Throws FileError.
+void write_surface(const std::filesystem::path& file, const SurfaceFormat& format, const SurfaceMesh& mesh,
+                   const SurfacePlan& plan, const Vec3d& up);
+
+/// The direction against gravity; up the z axis without any.
+Vec3d up_of(const Scene& scene);
+
+/// A folder of surfaces: a file per frame and format, the solids, and surface.json, which tells what is there. Each
+/// file is whole, and surface.json lists whole ones only.
+class SurfaceFolder {
+ public:
+  /// Makes the folder and writes the solids. Of what lies there already, surfaces of the same particles and settings
+  /// stay listed, unless `anew`; others are removed. `source` is the folder of the particles. Throws FileError.
+  SurfaceFolder(std::filesystem::path folder, const std::filesystem::path& source, const Scene& scene, SurfacePlan plan,
+                bool anew);
+
+  /// Frees the list of frames that are no longer among the source's.
+  void keep_only(const std::vector<ResultFrame>& frames);
+
+  /// Formats that a frame still needs: those whose file is not there, or older than the frame's.
+  std::vector<const SurfaceFormat*> missing(const ResultFrame& frame) const;
+
+  /// Writes a frame's surface in these formats. Throws FileError, and Error for what a format cannot hold.
+  void write(std::int64_t number, const SurfaceMesh& mesh, const std::vector<const SurfaceFormat*>& formats);
+  void write(std::int64_t number, const SurfaceMesh& mesh) { write(number, mesh, formats_); }
+
+  /// Writes what only the last frame completes: the file that holds them all. Throws FileError.
+  void finish();
+
+  const SurfacePlan& plan() const { return plan_; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  void write_solids();
+  void write_index() const;
+  SurfaceEntry& entry(std::int64_t number);
+  void forget(const SurfaceEntry& entry) const;
+
+  std::filesystem::path folder_;
+  SurfacePlan plan_;
+  std::vector<const SurfaceFormat*> formats_;
+  std::vector<SolidMesh> solids_;
+  SurfaceIndex index_;
+  std::optional<UsdaWriter> sequence_;         // open while frames are added to it
+  std::vector<std::int64_t> sequence_frames_;  // that it holds
+};
+
+}  // namespace sessile::app

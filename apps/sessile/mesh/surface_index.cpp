@@ -1,0 +1,88 @@
+#include "surface_index.h"
+
+#include <fmt/format.h>
+#include <json/json.h>
+
+#include <fstream>
+#include <string_view>
+
+#include "sessile/output/json_object.h"
+
+namespace sessile::app {
+namespace {
+
+constexpr int version = 1;
+
+std::string quoted(const std::string& text) { return Json::valueToQuotedString(text.c_str()); }
+
+template <class T, class F>
+std::string list_of(const std::vector<T>& entries, F&& text_of) {
+  std::string text;
+  for (const T& each : entries) text += fmt::format("{}\n    {}", text.empty() ? "" : ",", text_of(each));
+  return text.empty() ? "[]" : fmt::format("[{}\n  ]", text);
+}
+
+std::string frame_json(const SurfaceEntry& entry) {
+  std::string files;
+  for (const std::string& file : entry.files) files += fmt::format("{}{}", files.empty() ? "" : ", ", quoted(file));
+  return fmt::format(R"({{"number": {}, "time": {}, "file": {}, "triangles": {}, "files": [{}]}})", entry.number,
+                     entry.time, quoted(entry.files.empty() ? "" : entry.files.front()), entry.triangles, files);
+}
+
+SurfaceEntry entry_of(const Json::Value& json) {
+  SurfaceEntry entry{json["number"].asInt64(), json["time"].asDouble(), {}, json["triangles"].asUInt64()};
+  for (const Json::Value& file : json["files"]) {
+    // A name alone: what lies elsewhere is none of this folder's.
+    const std::string name = file.asString();
+    if (name == std::filesystem::path(name).filename().string() && name.starts_with("surface")) {
+      entry.files.push_back(name);
+    }
+  }
+  return entry;
+}
+
+}  // namespace
+
+bool SurfaceIndex::same_origin(const SurfaceIndex& other) const {
+  return source == other.source && spacing == other.spacing && settings == other.settings;
+}
+
+std::string index_json(const SurfaceIndex& index) {
+  JsonObject object(0);
+  object.add("version", std::int64_t{version})
+      .add("source", index.source)
+      .add("spacing", index.spacing)
+      .raw("up", fmt::format("[{}, {}, {}]", index.up.x, index.up.y, index.up.z))
+      .raw("settings", index.settings)
+      .raw("frames", list_of(index.frames, frame_json))
+      .raw("solids", list_of(index.solids, [](const SurfaceIndex::Solid& solid) {
+             return fmt::format(R"({{"label": {}, "file": {}}})", quoted(solid.label), quoted(solid.file));
+           }));
+  return object.text() + "\n";
+}
+
+SurfaceIndex read_index(const std::filesystem::path& file) {
+  SurfaceIndex index;
+  std::ifstream in(file, std::ios::binary);
+  try {
+    Json::Value json;
+    if (!in || !Json::parseFromStream(Json::CharReaderBuilder(), in, &json, nullptr) || !json.isObject()) return {};
+    if (json["version"].asInt() != version) return {};
+    index.source = json["source"].asString();
+    index.spacing = json["spacing"].asDouble();
+    for (const Json::Value& frame : json["frames"]) index.frames.push_back(entry_of(frame));
+  } catch (const Json::Exception&) {
+    return {};
+  }
+  // The settings as the file has them, to the letter: numbers that went through a parser need not come out the same.
+  in.clear();
+  in.seekg(0);
+  constexpr std::string_view key = "  \"settings\": ";
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with(key) && line.ends_with(','))
+      index.settings = line.substr(key.size(), line.size() - 1 - key.size());
+  }
+  return index;
+}
+
+}  // namespace sessile::app

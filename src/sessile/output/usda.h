@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sessile/core/vec.h"
+#include "sessile/output/file.h"
+#include "sessile/scene/solid_mesh.h"
+#include "sessile/surface/surface_mesh.h"
+
+namespace sessile {
+
+/// Writes a surface over time as one USD file in text: a UsdGeomMesh /World/surface with time samples of its points,
+/// faces, normals, velocities and columns, and the solids beside it. Frames wait in files of their own, one for each
+/// attribute, until finish() joins them: none stays in memory.
+class UsdaWriter {
+ public:
+  /// `frames_per_second` of simulated time: a time code is a frame. Throws FileError.
+  UsdaWriter(std::filesystem::path file, double frames_per_second);
+
+  /// Takes back what has not been joined.
+  ~UsdaWriter();
+  UsdaWriter(UsdaWriter&&) = delete;
+
+  /// Adds a frame; they come in the order of time. Throws FileError.
+  void add(const SurfaceMesh& mesh);
+
+  /// Writes the file, whole or not at all; `up` says which axis points up: y or z. Throws FileError.
+  void finish(const Vec3d& up, std::span<const SolidMesh> solids);
+
+ private:
+  /// An attribute and the file that its samples wait in.
+  struct Attribute {
+    std::string declaration;  ///< with what stands in brackets behind it
+    std::string name;         ///< type and name
+    std::filesystem::path file;
+    std::unique_ptr<LineFile> samples;
+  };
+
+  void sample(std::string_view type_and_name, std::string_view brackets, const std::string& value);
+  void column(const Column& column);
+
+  std::filesystem::path file_;
+  double rate_;
+  double code_ = 0, first_code_ = 0;  // of the last frame, of the first one
+  bool any_ = false;
+  std::vector<Attribute> attributes_;
+};
+
+}  // namespace sessile

@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <pugixml.hpp>
+#include <utility>
+
+#include "sessile/core/error.h"
+#include "sessile/results/frame_files.h"
+
+namespace sessile {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
+
+// zlib makes at most 1032 bytes of one; a file that promises more lies.
+constexpr std::uint64_t most_inflation = 1040;
+constexpr std::uint64_t word_bytes = sizeof(std::uint64_t);
+
+FileError not_ours() { return FileError("it is a VTK file, but no frame that `sessile run` wrote"); }
+FileError damaged() { return FileError("its data is cut short or changed"); }
+
+template <class T>
+std::optional<T> number(std::string_view text) {
+  T value{};
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || rest != text.data() + text.size()) return {};
+  return value;
+}
+
+/// Takes arrays off the appended data, in the order in which the file lists them: without gaps, so that no byte is
+/// unpacked twice.
+class Appended {
+ public:
+  explicit Appended(std::string_view text) : text_(text) {}
+
+  /// The next array, which must hold `size` bytes.
+  std::string next(std::uint64_t offset, std::uint64_t size) {
+    if (offset != at_) throw not_ours();
+    const std::uint64_t blocks = words(base64(word_bytes, false))[0];
+    if (blocks > text_.size() / word_bytes) throw damaged();
+    const std::vector<std::uint64_t> head = words(base64(word_bytes * (3 + blocks), true));
+    std::uint64_t packed_bytes = 0;
+    for (std::size_t i = 3; i < head.size(); ++i) {
+      if (head[i] > text_.size()) throw damaged();
+      packed_bytes += head[i];
+    }
+    if (size / most_inflation > packed_bytes) throw damaged();
+    return inflated(base64(packed_bytes, true), head, size);
+  }
+
+ private:
+  /// The next bytes; base64 of each array's head, and of its blocks, is padded by itself.
+  std::string base64(std::uint64_t bytes, bool take) {
+    if (bytes > text_.size()) throw damaged();
+    const std::uint64_t letters = (bytes + 2) / 3 * 4;
+    if (letters > text_.size() - at_) throw damaged();
+    std::string decoded = base64_bytes(text_.substr(at_, letters));
+    if (take && decoded.size() != bytes) throw damaged();
+    if (decoded.size() < bytes) throw damaged();
+    if (take) at_ += letters;
+    return decoded;
+  }
+
+  static std::vector<std::uint64_t> words(const std::string& bytes) {
+    std::vector<std::uint64_t> values(bytes.size() / word_bytes);
+    std::memcpy(values.data(), bytes.data(), values.size() * word_bytes);
+    return values;
+  }
+
+  static std::string inflated(const std::string& packed, const std::vector<std::uint64_t>& head, std::uint64_t size) {
+    std::string bytes(size, '\0');
+    std::uint64_t from = 0, to = 0;
+    for (std::size_t block = 3; block < head.size(); ++block) {
+      const bool part = block + 1 == head.size() && head[2] != 0;
+      const std::uint64_t expected = part ? head[2] : head[1];
+      if (expected > size - to) throw damaged();
+      uLongf made = expected;
+      const auto* const source = reinterpret_cast<const Bytef*>(packed.data() + from);
+      if (uncompress(reinterpret_cast<Bytef*>(bytes.data() + to), &made, source, head[block]) != Z_OK ||
+          made != expected) {
+        throw damaged();
+      }
+      from += head[block];
+      to += expected;
+    }
+    if (to != size) throw damaged();
+    return bytes;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+template <class T>
+std::vector<T> values_in(const std::string& bytes) {
+  std::vector<T> values(bytes.size() / sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+Column read_array(const pugi::xml_node& array, std::uint64_t points, Appended& appended) {
+  Column column;
+  column.name = array.attribute("Name").value();
+  column.unit = array.find_child_by_attribute("InformationKey", "name", "UNITS_LABEL").child_value();
+  column.components = array.attribute("NumberOfComponents").as_int();
+  const auto offset = number<std::uint64_t>(array.attribute("offset").value());
+  const std::string_view type = array.attribute("type").value();
+  const bool whole = type == "Int64";
+  if (!offset || (!whole && type != "Float32")) throw not_ours();
+  if (column.components != 1 && column.components != 3) throw not_ours();
+  const std::uint64_t size = points * static_cast<std::uint64_t>(column.components) * (whole ? 8 : 4);
+  const std::string bytes = appended.next(*offset, size);
+  if (whole) {
+    column.values = values_in<std::int64_t>(bytes);
+  } else {
+    column.values = values_in<float>(bytes);
+  }
+  return column;
+}
+
+FrameMoment moment_of(const pugi::xml_node& fields) {
+  const auto text = [&](const char* name) -> std::string_view {
+    return fields.find_child_by_attribute("DataArray", "Name", name).child_value();
+  };
+  const auto time = number<double>(text("TimeValue"));
+  const auto step = number<std::int64_t>(text("Step"));
+  if (!time || !std::isfinite(*time) || !step) throw not_ours();
+  return {*time, *step};
+}
+
+/// The number that stands behind `Name="..."` and the next '>'.
+template <class T>
+std::optional<T> number_behind(std::string_view text, std::string_view name) {
+  const auto at = text.find(fmt::format("Name=\"{}\"", name));
+  const auto begin = text.find('>', at);
+  const auto end = text.find('<', begin);
+  if (at == std::string_view::npos || end == std::string_view::npos) return {};
+  return number<T>(text.substr(begin + 1, end - begin - 1));
+}
+
+}  // namespace
+
+std::optional<FrameMoment> vtp_moment(std::string_view beginning) {
+  const auto time = number_behind<double>(beginning, "TimeValue");
+  const auto step = number_behind<std::int64_t>(beginning, "Step");
+  return time && step && std::isfinite(*time) ? std::optional(FrameMoment{*time, *step}) : std::nullopt;
+}
+
+Snapshot parse_vtp_frame(std::string bytes) {
+  const std::size_t size = bytes.size();
+  pugi::xml_document document;
+  const auto parsed = document.load_buffer_inplace(bytes.data(), size, pugi::parse_escapes, pugi::encoding_utf8);
+  const pugi::xml_node file = document.child("VTKFile");
+  if (!file) throw FileError("it is no VTK file");
+  if (!parsed) throw damaged();
+  const auto says = [&](const char* attribute, std::string_view value) {
+    return file.attribute(attribute).value() == value;
+  };
+  const pugi::xml_node data = file.child("AppendedData"), piece = file.child("PolyData").child("Piece");
+  if (!says("type", "PolyData") || !says("byte_order", "LittleEndian") || !says("header_type", "UInt64") ||
+      !says("compressor", "vtkZLibDataCompressor") || data.attribute("encoding").value() != std::string_view("base64"))
+    throw not_ours();
+  if (piece.attribute("NumberOfPolys").as_ullong() > 0) throw FileError("it holds a surface, not particles");
+  const auto points = number<std::uint64_t>(piece.attribute("NumberOfPoints").value());
+  if (!points) throw not_ours();
+  if (*points > size * most_inflation) throw damaged();
+
+  std::string_view text = data.child_value();
+  while (!text.empty() && (text.front() == '\n' || text.front() == ' ')) text.remove_prefix(1);
+  if (!text.starts_with('_')) throw not_ours();
+  Appended appended(text.substr(1));
+  const FrameMoment moment = moment_of(file.child("PolyData").child("FieldData"));
+  Snapshot snapshot{moment.time, moment.step, {}, {}};
+  for (const pugi::xml_node array : piece.child("PointData").children("DataArray")) {
+    snapshot.columns.push_back(read_array(array, *points, appended));
+  }
+  Column places = read_array(piece.child("Points").child("DataArray"), *points, appended);
+  auto* const floats = std::get_if<std::vector<float>>(&places.values);
+  if (floats == nullptr || places.components != 3) throw not_ours();
+  snapshot.points = std::move(*floats);
+  return snapshot;
+}
+
+}  // namespace sessile

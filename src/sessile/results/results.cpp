@@ -1,0 +1,148 @@
+#include "sessile/results/results.h"
+
+#include <fmt/format.h>
+#include <json/json.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <pugixml.hpp>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "sessile/core/error.h"
+#include "sessile/results/frame_files.h"
+#include "sessile/scene/read.h"
+
+namespace sessile {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 2> formats{"vtp", "ply"};  // what can be read, the preferred first
+constexpr std::size_t head_bytes = 4096;                          // enough for the time, which stands in front
+
+/// The number in frame_000012.vtp; nothing for other names.
+std::optional<std::int64_t> number_of(const std::string& name, std::string_view format) {
+  constexpr std::string_view prefix = "frame_";
+  const std::string suffix = fmt::format(".{}", format);
+  if (!name.starts_with(prefix) || !name.ends_with(suffix)) return {};
+  const char *const begin = name.data() + prefix.size(), *const end = name.data() + name.size() - suffix.size();
+  std::int64_t number = -1;
+  const auto [rest, error] = std::from_chars(begin, end, number);
+  if (begin >= end || error != std::errc{} || rest != end || number < 0) return {};
+  return number;
+}
+
+std::vector<ResultFrame> frames_in(const fs::path& folder, std::string_view format) {
+  std::vector<ResultFrame> frames;
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
+  if (error) throw FileError(fmt::format("cannot open the results in {}: {}", folder.string(), error.message()));
+  for (const auto& entry : entries) {
+    const auto number = number_of(entry.path().filename().string(), format);
+    if (number) frames.push_back({*number, 0, entry.path()});
+  }
+  std::sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  return frames;
+}
+
+/// The times that frames.pvd gives to files; none where there is no such file or it is damaged.
+std::map<std::string, double, std::less<>> collected_times(const fs::path& folder) {
+  std::map<std::string, double, std::less<>> times;
+  pugi::xml_document document;
+  if (!document.load_file((folder / "frames.pvd").c_str())) return times;
+  for (const pugi::xml_node entry : document.child("VTKFile").child("Collection").children("DataSet")) {
+    const std::string_view text = entry.attribute("timestep").value();
+    double time = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), time);
+    if (error == std::errc{} && rest == text.data() + text.size() && std::isfinite(time)) {
+      times.emplace(entry.attribute("file").value(), time);
+    }
+  }
+  return times;
+}
+
+double time_of(const fs::path& file) {
+  const std::string head = first_bytes(file, head_bytes);
+  const auto moment = file.extension() == ".ply" ? ply_moment(head) : vtp_moment(head);
+  if (!moment) throw FileError(fmt::format("cannot read {}: it tells no time, so it is no frame", file.string()));
+  return moment->time;
+}
+
+/// The scene as the text of a file of its own, out of the summary of an older run.
+std::string scene_in_summary(const fs::path& file) {
+  const std::string text = file_bytes(file);
+  Json::Value summary;
+  std::string why;
+  const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
+  try {
+    if (!reader->parse(text.data(), text.data() + text.size(), &summary, &why)) summary = {};
+  } catch (const Json::Exception&) {  // nested too deep
+    summary = {};
+  }
+  if (!summary.isObject() || !summary["scene"].isObject()) {
+    throw FileError(fmt::format("cannot read {}: it holds no scene", file.string()));
+  }
+  return Json::writeString(Json::StreamWriterBuilder(), summary["scene"]);
+}
+
+}  // namespace
+
+Scene read_result_scene(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path own = folder / "scene.json", summary = folder / "summary.json";
+  try {
+    if (fs::exists(own, ignored)) return read_scene(own);
+    if (fs::exists(summary, ignored)) return read_resolved_text(scene_in_summary(summary), summary.string()).scene;
+  } catch (const SceneError& e) {
+    throw FileError(fmt::format("the scene of {} cannot be used: {}", folder.string(), e.what()));
+  }
+  throw FileError(
+      fmt::format("{} holds neither scene.json nor summary.json: is it a folder of `sessile run`?", folder.string()));
+}
+
+Results open_results(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    const std::string why = error ? error.message() : "it is no folder";
+    throw FileError(fmt::format("cannot open the results in {}: {}", folder.string(), why));
+  }
+  Results results{folder, read_result_scene(folder), {}};
+  for (const std::string_view format : formats) {
+    if (results.frames.empty()) results.frames = frames_in(folder, format);
+  }
+  if (results.frames.empty()) {
+    throw FileError(fmt::format(
+        "{} holds no frames (frame_000000.vtp ...): did the scene's output.formats ask for any?", folder.string()));
+  }
+  const auto times = collected_times(folder);
+  for (ResultFrame& frame : results.frames) {
+    const auto known = times.find(frame.file.filename().string());
+    frame.time = known != times.end() ? known->second : time_of(frame.file);
+  }
+  return results;
+}
+
+Snapshot read_frame(const fs::path& file) {
+  std::string bytes = file_bytes(file);
+  try {
+    if (file.extension() == ".ply") return parse_ply_frame(bytes);
+    if (file.extension() == ".vtp") return parse_vtp_frame(std::move(bytes));
+  } catch (const FileError& fault) {
+    throw FileError(fmt::format("cannot read {}: {}", file.string(), fault.what()));
+  }
+  throw FileError(fmt::format("cannot read {}: frames are .vtp or .ply files", file.string()));
+}
+
+const ResultFrame& frame_at(const Results& results, double time) {
+  return *std::min_element(results.frames.begin(), results.frames.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a.time - time) < std::abs(b.time - time);
+  });
+}
+
+}  // namespace sessile
