@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   app::add_mesh(program, exit_code);
   app::add_picture(program, exit_code);
   app::add_view(program, exit_code);
+  app::add_render(program, exit_code);
   app::add_compare(program, exit_code);
   app::add_bench(program, exit_code);
   app::add_check(program, exit_code);

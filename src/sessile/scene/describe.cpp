@@ -149,4 +149,10 @@ std::string to_json(const SurfaceSettings& settings) {
   return writer.take() + "\n";
 }
 
+std::string to_json(const RenderSettings& settings) {
+  JsonWriter writer;
+  writer.group(settings, 0);
+  return writer.take() + "\n";
+}
+
 }  // namespace sessile

@@ -29,4 +29,7 @@ std::string to_json(const Scene& scene);
 /// The same of the settings of a surface.
 std::string to_json(const SurfaceSettings& settings);
 
+/// Render settings as JSON, every parameter but those left open.
+std::string to_json(const RenderSettings& settings);
+
 }  // namespace sessile

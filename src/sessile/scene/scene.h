@@ -11,6 +11,7 @@
 #include "sessile/core/vec.h"
 #include "sessile/forces/force.h"
 #include "sessile/pressure/pressure.h"
+#include "sessile/scene/render_settings.h"
 #include "sessile/scene/shapes.h"
 
 /// A scene as plain structs: what a scene file says, after defaults, in SI units.
@@ -205,6 +206,7 @@ struct Scene {
   std::optional<Domain> domain;
   std::vector<Solid> solids;
   Output output{};
+  std::optional<RenderSettings> render;
 
   static constexpr auto fields() {
     using T = Scene;
@@ -222,6 +224,7 @@ struct Scene {
         derived(field(&T::domain, "domain", "the box that is looked at"), "unbounded space"),
         field(&T::solids, "solids", "what the liquid cannot enter"),
         field(&T::output, "output", "what a run writes"),
+        derived(field(&T::render, "render", "what `sessile render` makes of it"), "its defaults"),
     };
   }
 

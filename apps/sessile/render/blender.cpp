@@ -1,0 +1,113 @@
+#include "blender.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <deque>
+#include <string>
+#include <string_view>
+
+#include "child.h"
+#include "frames_shown.h"
+#include "sessile/core/error.h"
+#include "sessile/output/file.h"
+#include "start.h"
+
+namespace sessile::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The script, where it is installed or where it was built.
+fs::path find_script() {
+  const fs::path place = installed_in();
+  for (const char* folder : {"share/sessile/blender", "../../tools/blender"}) {
+    const fs::path script = (place / folder / "render.py").lexically_normal();
+    std::error_code error;
+    if (fs::exists(script, error)) return script;
+  }
+  throw Error(
+      fmt::format("cannot find render.py in {}; install Sessile anew", (place / "share/sessile/blender").string()));
+}
+
+/// Listens to what Blender and its script print.
+class Listener {
+ public:
+  Listener(const fs::path& log, std::size_t frames, ProgressStyle style) : log_(log), shown_(frames, style) {}
+
+  void hear(const std::string& line) {
+    constexpr std::string_view mark = "sessile: ";
+    if (!line.starts_with(mark)) {
+      keep(line);
+      return;
+    }
+    const std::string said = line.substr(mark.size());
+    if (said.starts_with("fault ")) {
+      fault_ = said.substr(6);
+    } else if (said.starts_with("done ")) {
+      shown_.done();
+    }
+    log_.append(line + "\n");
+  }
+
+  const std::string& fault() const { return fault_; }
+  std::string last_lines() const {
+    std::string text;
+    for (const std::string& line : last_) text += "\n  " + line;
+    return text;
+  }
+  void finish() { shown_.finish(); }
+
+ private:
+  void keep(const std::string& line) {
+    constexpr std::size_t most = 6;
+    log_.append(line + "\n");
+    if (line.empty()) return;
+    last_.push_back(line);
+    if (last_.size() > most) last_.pop_front();
+  }
+
+  LineFile log_;
+  FramesShown shown_;
+  std::string fault_;
+  std::deque<std::string> last_;
+};
+
+std::vector<std::string> command_for(const fs::path& job_file, int threads) {
+  std::vector<std::string> command{"blender", "--background", "--factory-startup"};
+  if (threads > 0) {
+    command.emplace_back("--threads");
+    command.push_back(std::to_string(threads));
+  }
+  for (const std::string& each : {std::string("--python-exit-code"), std::string("1"), std::string("--python"),
+                                  find_script().string(), std::string("--"), job_file.string()}) {
+    command.push_back(each);
+  }
+  return command;
+}
+
+}  // namespace
+
+bool run_blender(const RenderJob& job, const BlenderOptions& options) {
+  const fs::path job_file = fs::absolute(job.output) / "job.json", log = job.output / "blender.log";
+  const std::vector<std::string> command = command_for(job_file, options.threads);
+  write_whole(job_file, job_json(job));
+  Listener listener(log, job.frames.size(), options.progress);
+  const ChildEnd end = run_child(command, [&](const std::string& line) { listener.hear(line); });
+  listener.finish();
+  std::error_code error;
+  if (end.missing) {
+    fs::remove(log, error);
+    throw Error(
+        "rendering takes Blender, and there is no program `blender`; on Debian: apt install blender python3-numpy");
+  }
+  if (end.interrupted) return false;
+  if (!listener.fault().empty()) throw Error(fmt::format("Blender: {} (log: {})", listener.fault(), log.string()));
+  if (end.status != 0) {
+    throw Error(fmt::format("Blender failed with exit code {}; {} ends with:{}", end.status, log.string(),
+                            listener.last_lines()));
+  }
+  return true;
+}
+
+}  // namespace sessile::app

@@ -1,0 +1,97 @@
+"""What liquids and solids look like."""
+import dataclasses
+import math
+
+import bpy
+
+from .nodes import Nodes
+
+
+@dataclasses.dataclass(frozen=True)
+class Look:
+    """A liquid. `tint` is what is left of white light after `depth` times the liquid's own size; black: opaque."""
+    ior: float
+    tint: tuple
+    depth: float = 1.0
+    roughness: float = 0.0
+    opaque: tuple | None = None  # colour of a liquid that hides what is behind it
+    metallic: float = 0.0
+
+
+LOOKS = {
+    "water": Look(1.33, (0.02, 0.42, 0.72), depth=0.6),
+    "clear": Look(1.33, (0.70, 0.88, 0.92)),
+    "oil": Look(1.47, (0.72, 0.42, 0.03), depth=0.5),
+    "honey": Look(1.49, (0.60, 0.19, 0.005), depth=0.3),
+    "wine": Look(1.35, (0.35, 0.01, 0.03), depth=0.3),
+    "milk": Look(1.35, (0, 0, 0), roughness=0.12, opaque=(0.86, 0.84, 0.79)),
+    "paint": Look(1.5, (0, 0, 0), roughness=0.05, opaque=(0.60, 0.035, 0.03)),
+    "metal": Look(1.5, (0, 0, 0), roughness=0.06, opaque=(0.75, 0.76, 0.78), metallic=1.0),
+}
+
+
+def liquid(look_name, size, color=None):
+    """The liquid's material. `size` is a length [m] that stands for the amount of liquid; `color` replaces the tint."""
+    look = LOOKS[look_name]
+    material = bpy.data.materials.new(f"liquid: {look_name}")
+    nodes = Nodes(material)
+    output = nodes.add("ShaderNodeOutputMaterial")
+    if look.opaque is not None:
+        _opaque(nodes, output, look, color or look.opaque)
+    else:
+        _transparent(nodes, output, look, color or look.tint, look.depth * size)
+    return material
+
+
+def _opaque(nodes, output, look, color):
+    surface = nodes.add("ShaderNodeBsdfPrincipled", {
+        "Base Color": (*color, 1), "Roughness": look.roughness, "Metallic": look.metallic, "IOR": look.ior})
+    nodes.put(output.inputs["Surface"], surface.outputs["BSDF"])
+
+
+def _transparent(nodes, output, look, tint, depth):
+    """Glass for the eye; for shadows clear, since caustics would take a thousand times the samples. The colour comes
+    from the way through the liquid, in shadows as well."""
+    glass = nodes.add("ShaderNodeBsdfPrincipled", {
+        "Base Color": (1, 1, 1, 1), "Roughness": look.roughness, "Transmission": 1.0, "IOR": look.ior})
+    # Part of the light is reflected off both faces, and part is bent aside.
+    clear = nodes.add("ShaderNodeBsdfTransparent", {"Color": (0.86, 0.86, 0.86, 1)})
+    path = nodes.add("ShaderNodeLightPath")
+    surface = nodes.add("ShaderNodeMixShader", {"Fac": path.outputs["Is Shadow Ray"]})
+    nodes.put(surface.inputs[1], glass.outputs["BSDF"])
+    nodes.put(surface.inputs[2], clear.outputs["BSDF"])
+    nodes.put(output.inputs["Surface"], surface.outputs["Shader"])
+    density, color = absorption(tint, depth)
+    volume = nodes.add("ShaderNodeVolumeAbsorption", {"Color": (*color, 1), "Density": density})
+    nodes.put(output.inputs["Volume"], volume.outputs["Volume"])
+
+
+def absorption(tint, depth):
+    """Density [1/m] and colour of the node that leaves `tint` of white light after `depth` metres: the node takes up
+    density (1 - colour) per metre."""
+    coefficients = [-math.log(max(part, 1e-4)) / depth for part in tint]
+    density = max(max(coefficients), 1e-9)
+    return density, tuple(1 - each / density for each in coefficients)
+
+
+SOLID_COLORS = ((0.62, 0.57, 0.51), (0.30, 0.22, 0.16), (0.16, 0.20, 0.25), (0.28, 0.30, 0.22))
+
+
+def solid(label, index, look="matte", color=None):
+    """A solid's material. Its back faces let light through, so that one looks into a container from outside."""
+    material = bpy.data.materials.new(f"solid: {label}")
+    nodes = Nodes(material)
+    output = nodes.add("ShaderNodeOutputMaterial")
+    color = color or SOLID_COLORS[index % len(SOLID_COLORS)]
+    values = {"Base Color": (*color, 1)}
+    values |= {"matte": {"Roughness": 0.65, "Specular": 0.25},
+               "glossy": {"Roughness": 0.12, "Specular": 0.5},
+               "metal": {"Roughness": 0.28, "Metallic": 1.0}}[look]
+    front = nodes.add("ShaderNodeBsdfPrincipled", values)
+    back = nodes.add("ShaderNodeBsdfTransparent")
+    side = nodes.add("ShaderNodeNewGeometry")
+    mix = nodes.add("ShaderNodeMixShader", {"Fac": side.outputs["Backfacing"]})
+    nodes.put(mix.inputs[1], front.outputs["BSDF"])
+    nodes.put(mix.inputs[2], back.outputs["BSDF"])
+    nodes.put(output.inputs["Surface"], mix.outputs["Shader"])
+    return material
