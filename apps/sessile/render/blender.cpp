@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "child.h"
-#include "frames_shown.h"
 #include "sessile/core/error.h"
 #include "sessile/output/file.h"
 #include "start.h"
@@ -33,7 +32,8 @@ fs::path find_script() {
 /// Listens to what Blender and its script print.
 class Listener {
  public:
-  Listener(const fs::path& log, std::size_t frames, ProgressStyle style) : log_(log), shown_(frames, style) {}
+  Listener(const fs::path& log, std::size_t frames, ProgressStyle style)
+      : log_(log), progress_(style, "frames", static_cast<std::int64_t>(frames)) {}
 
   void hear(const std::string& line) {
     constexpr std::string_view mark = "sessile: ";
@@ -45,7 +45,7 @@ class Listener {
     if (said.starts_with("fault ")) {
       fault_ = said.substr(6);
     } else if (said.starts_with("done ")) {
-      shown_.done();
+      progress_.update(++done_, "");
     }
     log_.append(line + "\n");
   }
@@ -56,7 +56,6 @@ class Listener {
     for (const std::string& line : last_) text += "\n  " + line;
     return text;
   }
-  void finish() { shown_.finish(); }
 
  private:
   void keep(const std::string& line) {
@@ -68,7 +67,8 @@ class Listener {
   }
 
   LineFile log_;
-  FramesShown shown_;
+  CountProgress progress_;
+  std::int64_t done_ = 0;
   std::string fault_;
   std::deque<std::string> last_;
 };
@@ -94,7 +94,6 @@ bool run_blender(const RenderJob& job, const BlenderOptions& options) {
   write_whole(job_file, job_json(job));
   Listener listener(log, job.frames.size(), options.progress);
   const ChildEnd end = run_child(command, [&](const std::string& line) { listener.hear(line); });
-  listener.finish();
   std::error_code error;
   if (end.missing) {
     fs::remove(log, error);

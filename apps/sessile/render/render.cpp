@@ -178,9 +178,9 @@ void add_render(CLI::App& program, int& exit_code) {
   command->add_option("--threads", options->threads, "processors for Blender (default: all)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--progress", options->progress, "auto, plain or none")
-      ->type_name("STYLE")
-      ->check(CLI::IsMember({"auto", "plain", "none"}));
+  command->add_option("--progress", options->progress, "how progress is shown")
+      ->check(CLI::IsMember({"auto", "plain", "json", "none"}))
+      ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = render(*options); });
 }
 

@@ -19,7 +19,7 @@ class Look:
 
 
 LOOKS = {
-    "water": Look(1.33, (0.02, 0.42, 0.72), depth=0.6),
+    "water": Look(1.33, (0.05, 0.42, 0.70), depth=0.8),
     "clear": Look(1.33, (0.70, 0.88, 0.92)),
     "oil": Look(1.47, (0.72, 0.42, 0.03), depth=0.5),
     "honey": Look(1.49, (0.60, 0.19, 0.005), depth=0.3),
