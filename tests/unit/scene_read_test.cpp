@@ -67,7 +67,13 @@ Scene rich(const std::string& mesh) {
                 Emitter{"f", Rectangle{1, 2}, {}, {}, {}, 0.5, 1, 7, 3, 0.9}};
   s.domain = Domain{{-9, -9, -9}, {9, 9, 9}, Edge::closed, Edge::periodic, Edge::open};
   s.solids = {Solid{"p", Plate{1, 2}, {}, 0.2, 2, 0.5, 0.0}, Solid{"q", Container{{1, 2, 3}}, {}, {}, 1, 1, {}}};
-  s.output = {0.02, 0.0, {"ply"}, {"id", "normal"}};
+  SurfaceOutput surface;
+  surface.method = DensityField{2.5, 1.0 / 3};
+  surface.cube_size = 0.1 + 0.2;
+  surface.formats = {"vdb", "usda"};
+  surface.interval = 0.7;
+  surface.stats = true;
+  s.output = {0.02, 0.0, {"ply"}, {"id", "normal"}, surface};
   return s;
 }
 
@@ -162,7 +168,7 @@ TEST(SceneReference, IsUpToDate) {
 
 TEST(SceneReference, KnowsEveryGroup) {
   const auto groups = scene_reference();
-  EXPECT_EQ(groups.size(), 27U);
+  EXPECT_EQ(groups.size(), 28U + std::variant_size_v<SurfaceMethod>);
   EXPECT_TRUE(has(models_text(), "  iisph: "));
   EXPECT_TRUE(has(models_text(), "  container: "));
   EXPECT_TRUE(has(scene_reference_markdown(), "## Type `box`"));
