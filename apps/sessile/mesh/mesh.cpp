@@ -202,7 +202,7 @@ void add_mesh(CLI::App& program, int& exit_code) {
   command->add_option("--frames", options->frames, "frames by their place: 10:20, ::5, 0,3,-1")->type_name("LIST");
   command->add_option("--spacing", options->spacing, "distance of the particles, in place of the scene's")
       ->type_name("METRES")
-      ->check(finite_and_positive, "");
+      ->check([](const std::string& word) { return finite_and_positive_in("m", word); }, "");
   command->add_flag("--again", options->again, "make surfaces anew that are up to date");
   command->add_option("--threads", options->threads, "threads to use (default: all)")
       ->type_name("N")
