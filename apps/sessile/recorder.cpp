@@ -100,30 +100,32 @@ void Recorder::finish(const Simulation& simulation, RunFacts facts) {
     if (!frame_schedule_.is_done(simulation.time())) write_frame(simulation);
     if (!stats_schedule_.is_done(simulation.time())) write_stats(simulation);
   }
-  std::exception_ptr close_error;
-  try {
-    output_seconds_ += seconds_of([&] {
-      surfaces_.finish(simulation, facts.status == RunStatus::failed);
-      frames_.close();
-    });
-  } catch (const FileError& e) {
-    // The summary may still find room, and should say how the run ended.
-    close_error = std::current_exception();
-    facts.status = RunStatus::failed;
-    if (facts.message.empty()) facts.message = e.what();
-  }
+  const bool failed = facts.status == RunStatus::failed;
+  std::exception_ptr first_error;
+  const auto attempt = [&](auto&& last_work) {
+    try {
+      output_seconds_ += seconds_of(last_work);
+    } catch (const Error& e) {
+      // The summary may still find room, and should say how the run ended.
+      if (!first_error) first_error = std::current_exception();
+      facts.status = RunStatus::failed;
+      if (facts.message.empty()) facts.message = e.what();
+    }
+  };
+  attempt([&] { surfaces_.finish(simulation, failed); });
+  attempt([&] { frames_.close(); });
   facts.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   facts.output_time = output_seconds_;
   facts.measures_time = measure_seconds_;
   facts.writer_time = frames_.seconds();
   facts.frames = frames_.frames_written();
-  if (close_error) {
+  if (first_error) {
     try {
       write_summary(folder_ / "summary.json", facts, simulation_facts(simulation));
     } catch (const FileError&) {
       // The first error is the one to report.
     }
-    std::rethrow_exception(close_error);
+    std::rethrow_exception(first_error);
   }
   write_summary(folder_ / "summary.json", facts, simulation_facts(simulation));
 }

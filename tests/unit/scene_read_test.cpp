@@ -159,6 +159,26 @@ TEST(SceneFilesOfTheProject, AreSound) {
   EXPECT_GE(methods, 3);
 }
 
+TEST(SurfaceSettings, TakeOverridesAsScenesDo) {
+  SurfaceSettings before;
+  before.method = DensityField{3, 0.4};
+  before.cube_size = 1;
+  const auto after = with_overrides(before, std::vector<std::string>{"method.threshold=0.5", "cube_size=2"});
+  EXPECT_EQ(after.cube_size, 2);
+  EXPECT_EQ(std::get<DensityField>(after.method).threshold, 0.5);
+  EXPECT_EQ(std::get<DensityField>(after.method).smoothing_length, 3) << "what is not overridden stays";
+  EXPECT_EQ(with_overrides(before, {}).cube_size, 1);
+  try {
+    with_overrides(before, std::vector<std::string>{"cube_sze=1", "method.type=densty", "cube_size=0"});
+    FAIL();
+  } catch (const SceneError& e) {
+    EXPECT_EQ(e.messages, (std::vector<std::string>{"--set cube_sze: unknown key (did you mean \"cube_size\"?)",
+                                                    "--set method.type: unknown type \"densty\" (did you mean "
+                                                    "\"density\"?)",
+                                                    "--set cube_size: must be above 0, found 0"}));
+  }
+}
+
 TEST(SceneReference, IsUpToDate) {
   // To bring it up to date: run this program with SESSILE_WRITE_DOCS set.
   const std::filesystem::path file = SESSILE_SOURCE_DIR "/docs/scenes.md";
