@@ -19,7 +19,7 @@ vec3 surroundings(vec3 direction) {
   float height = dot(direction, above);
   vec3 sky = mix(vec3(0.58, 0.64, 0.71), vec3(0.10, 0.19, 0.32), smoothstep(0.02, 0.75, height));
   vec3 color = mix(vec3(0.22, 0.23, 0.25), sky, smoothstep(-0.12, 0.06, height));
-  color = mix(color, linear(vec3(0.88, 0.90, 0.92)), smoothstep(0.2, 0.95, -direction.z));
+  color = mix(color, vec3(0.52, 0.56, 0.60), smoothstep(0.2, 0.95, -direction.z));
   color += vec3(1.7, 1.65, 1.55) * smoothstep(0.88, 0.92, dot(direction, lamp));
   vec3 opposite = normalize(2.0 * dot(lamp, above) * above - lamp);
   return color + vec3(0.55, 0.58, 0.62) * smoothstep(0.95, 0.97, dot(direction, opposite));

@@ -225,18 +225,21 @@ void main() {
     // Nothing behind: a rim bends the ray aside, to where it is darker than beyond the scene.
     through *= surroundings(normalize(ray + 2.2 * (bent - ray))) / surroundings(ray);
   }
+  // Where it runs out the outline is that of the thickness, which is rounder than that of spheres; `rim` is what a single
+  // particle has near its own. Inside it there is some colour at once.
+  float there = has_normals ? 1.0 : smoothstep(0.8 * rim, 1.2 * rim, thickness);
+  thickness += 0.5;
   // Deep liquid lets through more than its depth would: a pool shall not be black.
   float deep = thickness / (1.0 + 0.12 * thickness);
   vec3 body = vec3(0.015, 0.13, 0.22) * (0.6 + 0.5 * max(0.0, dot(normal, lamp)));
   through = through * exp(-deep * vec3(0.42, 0.145, 0.06)) + body * (1.0 - exp(-0.12 * deep));
 
+  through *= 1.0 - 0.45 * pow(1.0 - facing, 2.0);  // a steep side bends rays to where it is darker
   float mirrored = 0.04 + 0.96 * pow(1.0 - facing, 5.0);
-  vec3 mirror = surroundings(reflect(ray, normal));
+  vec3 mirror_ray = reflect(ray, normal);
+  vec3 mirror = mix(surroundings(mirror_ray), behind, smoothstep(0.3, 0.95, -mirror_ray.z));  // grazing: straight on
   vec3 half_way = normalize(lamp - ray);
   float glint = pow(max(0.0, dot(normal, half_way)), 220.0);
-  // Where it runs out the outline is that of the thickness, which is rounder than that of spheres; `rim` is what a single
-  // particle has near its own.
-  float there = has_normals ? 1.0 : smoothstep(0.8 * rim, 1.2 * rim, thickness);
   lit.rgb = mix(behind, mix(through, mirror, mirrored) + vec3(1.3) * glint, there);
 }
 )";
