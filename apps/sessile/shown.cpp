@@ -136,10 +136,10 @@ std::vector<std::string> shown_fields(const Snapshot& frame) {
 std::vector<std::string> shown_fields(const Simulation& simulation) {
   std::vector<std::string> names{"speed", "height"};
   for (const KnownColumn& column : known_columns()) {
-    if (!column.name.starts_with(acceleration_prefix)) names.emplace_back(column.name);
+    if (!column.name.starts_with(acceleration_prefix) && column.name != "speed") names.emplace_back(column.name);
   }
   for (const std::string& force : simulation.acceleration_names()) {
-    names.push_back(std::string(acceleration_prefix) + force);
+    names.push_back(fmt::format("{}{}", acceleration_prefix, force));
   }
   return names;
 }
@@ -159,7 +159,7 @@ draw::Moment moment_of(const Snapshot& frame, std::string_view field, const draw
   } else if (field == "height") {
     moment.values = heights(frame.points, stage.up);
     moment.field = "height";
-    moment.unit = "m";
+    moment.unit = std::string("m");  // GCC 12 warns of the plain literal
   } else if (!field.empty()) {
     throw unknown_field(field, shown_fields(frame));
   }

@@ -83,7 +83,7 @@ void draw_time(const Moment& moment, float left, float height) {
 
 void draw_color_bar(const Moment& moment, const Appearance& appearance, std::pair<float, float> range, float width,
                     float height) {
-  if (appearance.look == Look::liquid || moment.field.empty()) return;
+  if (appearance.look != Look::particles || moment.field.empty()) return;
   const float letters = letter_size(height), margin = 0.9F * letters;
   const Writer writer(letters);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();

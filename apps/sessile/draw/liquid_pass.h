@@ -16,7 +16,6 @@ struct LiquidView {
   std::optional<ClippingPlane> clip;
   const gl::Target* scene = nullptr;  ///< ScenePass's: what hides liquid, and is seen through it
   GLuint lit = 0;                     ///< the same, lit
-  int width = 0, height = 0;          ///< of the picture [pixels]
 };
 
 /// Draws liquid in screen space (van der Laan et al. 2009): a depth of spheres or triangles, evened out, a thickness,
@@ -37,7 +36,7 @@ class LiquidPass {
   GLuint compose(const LiquidView& view, bool has_normals) const;
   void start_layer(const gl::Target& target, bool adds) const;
 
-  gl::Program sphere_depth_, sphere_thickness_, skin_depth_, skin_thickness_, smooth_, compose_;
+  gl::Program sphere_depth_, sphere_thickness_, skin_depth_, skin_thickness_, smooth_, polish_, compose_;
   gl::VertexArray nothing_;
 
   struct Targets {
@@ -45,7 +44,7 @@ class LiquidPass {
     gl::Target other;      // a distance, while it is evened out
     gl::Target thickness;  // in spacings
     gl::Target lit;
-    Targets(int width, int height, int fineness);
+    Targets(int width, int height);
   };
   std::optional<Targets> targets_;
 };

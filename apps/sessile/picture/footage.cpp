@@ -122,21 +122,22 @@ SceneFootage::SceneFootage(const PictureOptions& options)
     : options_(options),
       scene_(scene_of(options)),
       stage_(stage_of(scene_.scene)),
-      times_(chosen_times(scene_.scene, options)) {}
+      times_(chosen_times(scene_.scene, options)),
+      simulation_(set_up(scene_, options.source)) {
+  moment_of(simulation_, options.field, stage_);  // a field that is not there shows now
+}
 
-void SceneFootage::play(const TakeMoment& take) const {
-  Simulation simulation = set_up(scene_, options_.source);
-  state_of(simulation, options_, stage_);  // a field that is not there shows now
+void SceneFootage::play(const TakeMoment& take) {
   Progress progress(progress_style(options_.progress));
   for (const double time : times_) {
-    while (simulation.time() < time * (1 - 1e-9) && !stop_asked()) {
-      simulation.step();
-      progress.update(simulation);
+    while (simulation_.time() < time * (1 - 1e-9) && !stop_asked()) {
+      simulation_.step();
+      progress.update(simulation_);
     }
     if (stop_asked()) break;
-    take(state_of(simulation, options_, stage_));
+    take(state_of(simulation_, options_, stage_));
   }
-  if (simulation.totals().steps > 0) progress.finish(simulation);
+  if (simulation_.totals().steps > 0) progress.finish(simulation_);
 }
 
 }  // namespace sessile::app

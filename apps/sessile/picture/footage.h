@@ -8,6 +8,7 @@
 #include "picture/options.h"
 #include "sessile/results/results.h"
 #include "sessile/scene/read.h"
+#include "sessile/simulation.h"
 
 namespace sessile::app {
 
@@ -41,21 +42,22 @@ class FolderFootage {
 /// Moments out of a scene that is run for them.
 class SceneFootage {
  public:
-  /// Throws SceneError.
+  /// Throws SceneError, and Error of a field that is not there.
   explicit SceneFootage(const PictureOptions& options);
 
   const draw::Stage& stage() const { return stage_; }
   std::size_t count() const { return times_.size(); }
 
   /// Runs the scene with progress, and hands out each state at or after a chosen time, until a signal asks for the end.
-  /// Throws SceneError and Error of what shows before the first step, RunError of what goes wrong later.
-  void play(const TakeMoment& take) const;
+  /// Throws RunError. To be called once.
+  void play(const TakeMoment& take);
 
  private:
   const PictureOptions& options_;
   ResolvedScene scene_;
   draw::Stage stage_;
   std::vector<double> times_;
+  Simulation simulation_;
 };
 
 }  // namespace sessile::app

@@ -167,8 +167,8 @@ std::string clash(const PictureOptions& options) {
     return "name the file to write: -o FILE.png, or --video FILE.mp4";
   if (!options.picture.empty() && !options.video.empty()) return "give -o or --video, not both";
   if (!options.frames.empty() && !options.times.empty()) return "give --frames or --time, not both";
-  if (options.look == draw::Look::liquid && !options.field.empty()) {
-    return "--field colours particles and surfaces; the look \"liquid\" has no colours of a field";
+  if (options.look != draw::Look::particles && (!options.field.empty() || options.range)) {
+    return "--field and --range colour particles; the other looks have the liquid's own colour";
   }
   if (!options.video.empty() && options.times.size() > 1) return "a video has one --time: where it ends";
   return {};

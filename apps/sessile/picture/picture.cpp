@@ -38,7 +38,7 @@ auto judged(F&& f) {
   }
 }
 
-int take_picture(Studio& studio, const auto& footage, const PictureOptions& options) {
+int take_picture(Studio& studio, auto& footage, const PictureOptions& options) {
   if (footage.count() > most_panels) {
     throw BadInput(fmt::format("{} frames do not stand side by side; {} do, and --video shows them one after the other",
                                footage.count(), most_panels));
@@ -55,7 +55,7 @@ int take_picture(Studio& studio, const auto& footage, const PictureOptions& opti
 std::vector<draw::Moment> preview(const FolderFootage& footage) { return footage.sample(); }
 std::vector<draw::Moment> preview(const SceneFootage& /*footage*/) { return {}; }
 
-int take_video(Studio& studio, const auto& footage, const PictureOptions& options) {
+int take_video(Studio& studio, auto& footage, const PictureOptions& options) {
   std::vector<draw::Moment> seen_before = preview(footage);
   std::optional<std::pair<float, float>> range = options.range;
   if (!range && !seen_before.empty()) range = common_range(seen_before);
@@ -63,7 +63,7 @@ int take_video(Studio& studio, const auto& footage, const PictureOptions& option
   seen_before.clear();
   draw::Video video(options.video, options.size.first, options.size.second, options.frames_per_second);
   CountProgress progress(
-      std::is_same_v<decltype(footage), const FolderFootage&> ? progress_style(options.progress) : ProgressStyle::none,
+      std::is_same_v<decltype(footage), FolderFootage&> ? progress_style(options.progress) : ProgressStyle::none,
       "frames", static_cast<std::int64_t>(footage.count()));
   std::int64_t count = 0;
   footage.play([&](draw::Moment&& moment) {
@@ -81,7 +81,7 @@ int take_video(Studio& studio, const auto& footage, const PictureOptions& option
 
 template <class Footage>
 int take(const PictureOptions& options) {
-  const Footage footage = judged([&] { return Footage(options); });
+  Footage footage = judged([&] { return Footage(options); });
   Studio studio(options);  // before a long run: this machine may not be able to draw
   heed_signals();
   return options.video.empty() ? take_picture(studio, footage, options) : take_video(studio, footage, options);

@@ -84,7 +84,7 @@ void Studio::set_up(const draw::Stage& stage, std::span<const draw::Moment> mome
   camera.up = stage.up;
   camera.orthographic = impl_->options.orthographic;
   std::tie(camera.azimuth, camera.elevation) = impl_->options.view;
-  const bool bar = impl_->appearance.legend && impl_->appearance.look != draw::Look::liquid;
+  const bool bar = impl_->appearance.legend && impl_->appearance.look == draw::Look::particles;
   camera.fit(low, high, static_cast<double>(width) / impl_->height(), bar ? draw::legend_share() : 0);
   camera.zoom(impl_->options.zoom);
 }
