@@ -159,7 +159,7 @@ draw::Moment moment_of(const Snapshot& frame, std::string_view field, const draw
   } else if (field == "height") {
     moment.values = heights(frame.points, stage.up);
     moment.field = "height";
-    moment.unit = "m";
+    moment.unit = std::string("m");  // GCC 12 warns of the plain literal
   } else if (!field.empty()) {
     throw unknown_field(field, shown_fields(frame));
   }
