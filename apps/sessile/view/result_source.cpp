@@ -172,7 +172,7 @@ void ResultSource::draw_controls() {
   ImGui::Checkbox("loop", &loop_);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::SliderFloat("##speed", &speed_, 0.001F, 100, "%.3g simulated s / s", ImGuiSliderFlags_Logarithmic);
+  ImGui::SliderFloat("##speed", &speed_, 0.001F, 100, "%.3g x real time", ImGuiSliderFlags_Logarithmic);
 }
 
 void ResultSource::draw_parameters() {

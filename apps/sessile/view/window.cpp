@@ -85,7 +85,7 @@ Window::Window(const std::string& title, int width, int height) {
   glfwSetFramebufferSizeCallback(window_, Callbacks::size);
 
   IMGUI_CHECKVERSION();
-  ImGui::CreateContext();
+  context_ = ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;              // nothing is left in the user's folder
   ImGui::GetIO().ConfigDragClickToInputText = true;  // a click on a number lets one type
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
@@ -96,6 +96,7 @@ Window::Window(const std::string& title, int width, int height) {
 }
 
 Window::~Window() {
+  ImGui::SetCurrentContext(context_);  // pictures have contexts of their own
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();

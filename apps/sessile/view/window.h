@@ -6,6 +6,7 @@
 #include "view/keys.h"
 
 struct GLFWwindow;
+struct ImGuiContext;
 
 namespace sessile::viewer {
 
@@ -47,6 +48,7 @@ class Window {
   struct Callbacks;
 
   GLFWwindow* window_ = nullptr;
+  ImGuiContext* context_ = nullptr;
   float scale_ = 1;
   std::vector<Action> actions_;
   bool events_ = true;
