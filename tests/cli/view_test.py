@@ -20,9 +20,14 @@ class Display:
         self.process = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp", "-noreset"],
                                         pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
-        ready = select.select([read], [], [], WAIT)[0]
-        self.name = ":" + os.read(read, 16).decode().strip() if ready else ""
+        number = b""
+        while not number.endswith(b"\n") and select.select([read], [], [], WAIT)[0]:
+            more = os.read(read, 16)
+            if not more:
+                break
+            number += more
         os.close(read)
+        self.name = ":" + number.decode().strip()
 
     def end(self):
         self.process.terminate()

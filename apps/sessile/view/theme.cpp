@@ -37,6 +37,8 @@ void set_theme(float scale) {
   colors[ImGuiCol_CheckMark] = accent;
   colors[ImGuiCol_SliderGrab] = accent;
   colors[ImGuiCol_SliderGrabActive] = tinted(0.8F);
+  colors[ImGuiCol_TitleBg] = colors[ImGuiCol_TitleBgActive] = {0.165F, 0.18F, 0.205F, 1};
+  colors[ImGuiCol_ResizeGrip] = tinted(0.15F);
   colors[ImGuiCol_Separator] = {0.24F, 0.265F, 0.30F, 1};
   style.ScaleAllSizes(scale);
 }
