@@ -136,10 +136,10 @@ std::vector<std::string> shown_fields(const Snapshot& frame) {
 std::vector<std::string> shown_fields(const Simulation& simulation) {
   std::vector<std::string> names{"speed", "height"};
   for (const KnownColumn& column : known_columns()) {
-    if (!column.name.starts_with(acceleration_prefix)) names.emplace_back(column.name);
+    if (!column.name.starts_with(acceleration_prefix) && column.name != "speed") names.emplace_back(column.name);
   }
   for (const std::string& force : simulation.acceleration_names()) {
-    names.push_back(std::string(acceleration_prefix) + force);
+    names.push_back(fmt::format("{}{}", acceleration_prefix, force));
   }
   return names;
 }

@@ -34,6 +34,18 @@ def unpacked(path):
     return width, height, channels, zlib.decompress(packed)
 
 
+def image(path):
+    """Width, height and the rows of a PNG, each a list of (red, green, blue)."""
+    width, height, channels, raw = unpacked(path)
+    stride, rows, above = width * channels, [], bytes(width * channels)
+    for y in range(height):
+        line = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        unfilter(raw[y * (stride + 1)], line, above, channels)
+        rows.append(list(zip(line[0::channels], line[1::channels], line[2::channels])))
+        above = bytes(line)
+    return width, height, rows
+
+
 def pixels(path):
     """How often each colour stands in a PNG."""
     width, height, channels, raw = unpacked(path)

@@ -18,11 +18,11 @@ struct Stop {
 };
 
 // Hues turn by the short way from violet-blue to yellow; chroma keeps within what screens show.
-constexpr std::array<Stop, 6> stops{{{0.360, 0.140, 276},
-                                     {0.475, 0.128, 252},
-                                     {0.590, 0.097, 218},
-                                     {0.705, 0.112, 170},
-                                     {0.820, 0.150, 130},
+constexpr std::array<Stop, 6> stops{{{0.420, 0.150, 268},
+                                     {0.523, 0.128, 248},
+                                     {0.626, 0.103, 216},
+                                     {0.729, 0.118, 168},
+                                     {0.832, 0.155, 128},
                                      {0.935, 0.165, 103}}};
 
 /// Between the stops by Catmull and Rom's cubic; `place` from 0 to 1.

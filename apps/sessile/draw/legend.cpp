@@ -75,15 +75,17 @@ void draw_bar(ImDrawList& list, float left, float top, float width, float height
 
 float legend_share() { return 0.15F; }
 
-void draw_legend(const Moment& moment, const Appearance& appearance, std::pair<float, float> range, float width,
-                 float height) {
-  if (!appearance.legend) return;
+void draw_time(const Moment& moment, float left, float height) {
   const float letters = letter_size(height);
-  const Writer writer(letters);
-  const float margin = 0.9F * letters;
-  writer.write(fmt::format("t = {:.{}f} s", moment.time, moment.time_decimals), margin, 0.7F * margin, 0);
-  if (appearance.look != Look::particles || moment.field.empty()) return;
+  Writer(letters).write(fmt::format("t = {:.{}f} s", moment.time, moment.time_decimals), left + 0.9F * letters,
+                        0.6F * letters, 0);
+}
 
+void draw_color_bar(const Moment& moment, const Appearance& appearance, std::pair<float, float> range, float width,
+                    float height) {
+  if (appearance.look != Look::particles || moment.field.empty()) return;
+  const float letters = letter_size(height), margin = 0.9F * letters;
+  const Writer writer(letters);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float bar = std::round(std::max(0.26F * width, 9 * letters)), thick = std::round(0.62F * letters);
   const float left = std::round(0.5F * (width - bar));
@@ -102,6 +104,13 @@ void draw_legend(const Moment& moment, const Appearance& appearance, std::pair<f
     writer.write(label, x, top + thick + 0.25F * letters, 0.5F);
     free_from = x + half + 0.5F * letters;
   }
+}
+
+void draw_legend(const Moment& moment, const Appearance& appearance, std::pair<float, float> range, float width,
+                 float height) {
+  if (!appearance.legend) return;
+  draw_time(moment, 0, height);
+  draw_color_bar(moment, appearance, range, width, height);
 }
 
 }  // namespace sessile::draw

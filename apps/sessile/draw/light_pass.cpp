@@ -9,17 +9,20 @@ vec3 linear(vec3 stored) { return pow(stored, vec3(2.2)); }
 vec3 background(vec2 place) {
   vec2 off = place - vec2(0.5, 0.62);
   float edge = clamp(dot(off, off) * 1.7, 0.0, 1.0);
-  return linear(mix(vec3(0.925, 0.94, 0.955), vec3(0.70, 0.745, 0.79), edge));
+  return linear(mix(vec3(0.93, 0.945, 0.96), vec3(0.765, 0.80, 0.835), edge));
 }
 // Light from the sky all around on a surface that faces there.
 vec3 ambient(vec3 normal) { return mix(vec3(0.36, 0.345, 0.33), vec3(0.60, 0.63, 0.67), 0.5 + 0.5 * dot(normal, above)); }
-// What stands in that direction: a pale floor, a horizon, a brighter zenith, and the lamp as a large soft box.
+// What stands in that direction: a pale floor, a horizon, a sky that darkens upwards, the lamp as a large soft box and
+// a narrow one opposite. What lies beyond the scene is the picture's background.
 vec3 surroundings(vec3 direction) {
   float height = dot(direction, above);
-  vec3 sky = mix(vec3(0.62, 0.68, 0.74), vec3(0.30, 0.42, 0.58), smoothstep(0.0, 0.9, height));
-  vec3 color = mix(vec3(0.34, 0.34, 0.34), sky, smoothstep(-0.12, 0.08, height));
-  float box = dot(direction, lamp);
-  return color + vec3(1.6, 1.55, 1.45) * smoothstep(0.86, 0.93, box);
+  vec3 sky = mix(vec3(0.58, 0.64, 0.71), vec3(0.10, 0.19, 0.32), smoothstep(0.02, 0.75, height));
+  vec3 color = mix(vec3(0.22, 0.23, 0.25), sky, smoothstep(-0.12, 0.06, height));
+  color = mix(color, vec3(0.52, 0.56, 0.60), smoothstep(0.2, 0.95, -direction.z));
+  color += vec3(1.7, 1.65, 1.55) * smoothstep(0.88, 0.92, dot(direction, lamp));
+  vec3 opposite = normalize(2.0 * dot(lamp, above) * above - lamp);
+  return color + vec3(0.55, 0.58, 0.62) * smoothstep(0.95, 0.97, dot(direction, opposite));
 }
 )";
 
@@ -128,7 +131,7 @@ uniform sampler2D facing_map;
 uniform sampler2D depth_map;
 uniform sampler2D visible_map;
 uniform float near_by;
-uniform float shadow_depth;
+uniform vec3 shadow;
 out vec4 lit;
 
 // What has been looked up for fewer pixels, from those of them that lie as far away.
@@ -157,7 +160,7 @@ void main() {
   float z = z_at(textureLod(depth_map, place, 0.0).r);
   vec3 normal = normalize(2.0 * facing.xyz - 1.0);
   vec2 visible = visible_here(z);
-  float sunlit = max(0.0, dot(normal, lamp)) * mix(1.0, visible.y, shadow_depth);
+  vec3 sunlit = max(0.0, dot(normal, lamp)) * mix(shadow, vec3(1.0), visible.y);
   vec3 light = ambient(normal) * mix(0.25, 1.0, visible.x) + vec3(0.66, 0.645, 0.61) * sunlit;
   vec3 shine = vec3(0.0);
   if (facing.a > 0.5 && facing.a < 0.8) {
@@ -222,7 +225,7 @@ void LightPass::draw(const gl::Target& scene, const gl::Target& rough, const gl:
   shade_.bind("depth_map", 2, scene.depth());
   shade_.bind("visible_map", 3, rough.color());
   shade_.set("near_by", near_by);
-  shade_.set("shadow_depth", light.shadow_depth);
+  shade_.set("shadow", light.shadow);
   light.set(shade_, lens);
   draw_whole_picture();
 }

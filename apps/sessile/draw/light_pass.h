@@ -9,8 +9,8 @@ struct Light {
   Lens lens{};         ///< the light's own, and of its shadow map
   GLuint shadows = 0;  ///< depths as the light sees them
   Vec3d up{0, 0, 1};
-  double spacing = 1;       ///< of the particles: the scale of what touches [m]
-  double shadow_depth = 1;  ///< how dark shadows are, 0 to 1
+  double spacing = 1;  ///< of the particles: the scale of what touches [m]
+  Vec3d shadow{};      ///< what comes through what casts shadows, of red, green and blue light, 0 to 1
 
   /// Says to a program with glsl_surroundings where the lamp and the zenith are.
   void set(const gl::Program& program, const Lens& seen_by) const;

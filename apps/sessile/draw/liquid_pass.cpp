@@ -7,11 +7,13 @@ namespace {
 
 // In particle spacings: large enough that films have no holes, that thickness varies little from particle to particle,
 // and that single particles cannot be told apart.
-constexpr double front_radius = 0.80;
-constexpr double thickness_radius = 1.25;
+constexpr double front_radius = 0.85;
+constexpr double thickness_radius = 1.00;
+constexpr double rim_thickness = 0.30;
 constexpr double smooth_reach = 2.2;
+constexpr double polish_reach = 0.7;
 constexpr double narrow_range = 1.2;
-constexpr int smooth_rounds = 3;
+constexpr int smooth_rounds = 2;
 
 }  // namespace
 
@@ -33,6 +35,7 @@ LiquidPass::LiquidPass()
       skin_thickness_("thickness within a surface", {glsl_lens, glsl_clip}, shaders::skin_vertex,
                       shaders::skin_thickness),
       smooth_("evening out liquid", {glsl_lens}, glsl_whole_picture, shaders::smooth),
+      polish_("polishing liquid", {glsl_lens}, glsl_whole_picture, shaders::polish),
       compose_("liquid", {glsl_lens, glsl_surroundings}, glsl_whole_picture, shaders::compose) {}
 
 void LiquidPass::make_room(const LiquidView& view) {
@@ -106,22 +109,25 @@ void LiquidPass::even_out(const LiquidView& view) const {
   view.lens.set(smooth_);
   smooth_.bind("scene_depth", 1, view.scene->depth());
   smooth_.set("narrow", narrow_range * view.spacing);
-  const GLenum distance_only = GL_COLOR_ATTACHMENT0;
   double reach = smooth_reach * view.spacing;
-  for (int round = 0; round < smooth_rounds; ++round, reach *= 0.6) {
+  for (int round = 0; round < smooth_rounds; ++round, reach *= 0.5) {
     smooth_.set("reach", reach);
     targets_->other.draw_here();
     smooth_.bind("front", 0, targets_->front.color());
     smooth_.set("axis", 1.0F, 0.0F);
     draw_whole_picture();
     targets_->front.draw_here();
-    glDrawBuffers(1, &distance_only);
     smooth_.bind("front", 0, targets_->other.color());
     smooth_.set("axis", 0.0F, 1.0F);
     draw_whole_picture();
   }
-  constexpr std::array<GLenum, 2> both{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  glDrawBuffers(2, both.data());
+  polish_.use();
+  view.lens.set(polish_);
+  polish_.bind("front", 0, targets_->front.color());
+  polish_.set("narrow", narrow_range * view.spacing);
+  polish_.set("reach", polish_reach * view.spacing);
+  targets_->other.draw_here();
+  draw_whole_picture();
 }
 
 GLuint LiquidPass::compose(const LiquidView& view, bool has_normals) const {
@@ -132,13 +138,14 @@ GLuint LiquidPass::compose(const LiquidView& view, bool has_normals) const {
   compose_.use();
   view.lens.set(compose_);
   view.light.set(compose_, view.lens);
-  compose_.bind("front", 0, targets_->front.color(0));
+  compose_.bind("front", 0, has_normals ? targets_->front.color(0) : targets_->other.color());
   compose_.bind("normals", 1, targets_->front.color(1));
   compose_.bind("thickness_map", 2, targets_->thickness.color());
   compose_.bind("scene_depth", 3, view.scene->depth());
   compose_.bind("lit_map", 4, view.lit);
   compose_.set("has_normals", has_normals);
   compose_.set("spacing", view.spacing);
+  compose_.set("rim", rim_thickness);
   draw_whole_picture();
   return targets_->lit.color();
 }

@@ -37,7 +37,7 @@ class LiquidPass {
   GLuint compose(const LiquidView& view, bool has_normals) const;
   void start_layer(const gl::Target& target, bool adds) const;
 
-  gl::Program sphere_depth_, sphere_thickness_, skin_depth_, skin_thickness_, smooth_, compose_;
+  gl::Program sphere_depth_, sphere_thickness_, skin_depth_, skin_thickness_, smooth_, polish_, compose_;
   gl::VertexArray nothing_;
 
   struct Targets {

@@ -129,9 +129,40 @@ void main() {
   float sum = own, weights = 1.0;
   for (int k = 1; k <= count; ++k) {
     float a = front_at(place + float(k) * by, own), b = front_at(place - float(k) * by, own);
-    if (a < own - narrow || b < own - narrow) continue;
-    float share = float(k) / float(taps), weight = exp(-3.0 * share * share);
+    float near = min(a, b) - own;
+    if (near < -narrow) continue;
+    float share = float(k) / float(taps), weight = exp(-3.0 * share * share) * smoothstep(-narrow, -0.6 * narrow, near);
     sum += weight * (min(a, own + narrow) + min(b, own + narrow));
+    weights += 2.0 * weight;
+  }
+  distance_to_eye = sum / weights;
+}
+)";
+
+// A last round in all directions, which takes away what the two axes leave.
+const std::string_view polish = R"(
+in vec2 place;
+uniform sampler2D front;
+uniform float reach;
+uniform float narrow;
+layout(location = 0) out float distance_to_eye;
+const int pairs = 12;
+void main() {
+  float own = textureLod(front, place, 0.0).r;
+  distance_to_eye = own;
+  if (own <= 0.0) return;
+  vec2 pixel = 1.0 / vec2(textureSize(front, 0));
+  float size = clamp(reach / (2.0 * (is_parallel ? slope.y : slope.y * own)), 1.5 * pixel.y, 0.05);
+  vec2 extent = size * vec2(pixel.x / pixel.y, 1.0);
+  float sum = own, weights = 1.0;
+  for (int k = 0; k < pairs; ++k) {
+    float share = sqrt((float(k) + 0.5) / float(pairs)), angle = 2.3999632 * float(k);
+    vec2 by = share * extent * vec2(cos(angle), sin(angle));
+    float a = textureLod(front, place + by, 0.0).r, b = textureLod(front, place - by, 0.0).r;
+    float weight = exp(-2.0 * share * share);
+    if (a <= 0.0 || b <= 0.0) continue;
+    weight *= smoothstep(-0.8 * narrow, -0.3 * narrow, -abs(0.5 * (a + b) - own));  // both sides of a slope even out
+    sum += weight * (a + b);
     weights += 2.0 * weight;
   }
   distance_to_eye = sum / weights;
@@ -147,6 +178,7 @@ uniform sampler2D scene_depth;
 uniform sampler2D lit_map;
 uniform bool has_normals;
 uniform float spacing;
+uniform float rim;
 out vec4 lit;
 
 vec3 place_of(vec2 there) { return view_place(there, -textureLod(front, there, 0.0).r); }
@@ -169,6 +201,9 @@ void main() {
   if (own <= 0.0) return;
   vec3 here = view_place(place, -own);
   vec2 pixel = 1.0 / vec2(textureSize(front, 0));
+  // A tenth of a particle apart, so that what noise is left does not glitter.
+  float height = 2.0 * (is_parallel ? slope.y : slope.y * own);
+  pixel *= floor(clamp(0.1 * spacing / height / pixel.y, 1.0, 12.0));
   vec3 normal;
   if (has_normals) {
     normal = normalize(2.0 * textureLod(normals, place, 0.0).xyz - 1.0);
@@ -180,19 +215,32 @@ void main() {
   float thickness = max(0.0, textureLod(thickness_map, place, 0.0).r);
 
   // What is seen through it, where the bent ray leaves it.
-  vec3 exit = here + 0.75 * thickness * spacing * refract(ray, normal, 0.75);
+  vec3 bent = refract(ray, normal, 0.75);
+  vec3 exit = here + 0.75 * thickness * spacing * bent;
   vec2 seen_at = clamp(picture_place(exit), vec2(0.001), vec2(0.999));
   float solid = z_at(textureLod(scene_depth, seen_at, 0.0).r);
   if (solid > here.z) seen_at = place;  // in front of the liquid
   vec3 through = textureLod(lit_map, seen_at, 0.0).rgb;
-  vec3 body = vec3(0.02, 0.15, 0.24) * (0.6 + 0.5 * max(0.0, dot(normal, lamp)));
-  through = through * exp(-thickness * vec3(0.30, 0.105, 0.055)) + body * (1.0 - exp(-0.16 * thickness));
+  if (textureLod(scene_depth, seen_at, 0.0).r >= 1.0) {
+    // Nothing behind: a rim bends the ray aside, to where it is darker than beyond the scene.
+    through *= surroundings(normalize(ray + 2.2 * (bent - ray))) / surroundings(ray);
+  }
+  // Where it runs out the outline is that of the thickness, which is rounder than that of spheres; `rim` is what a single
+  // particle has near its own. Inside it there is some colour at once.
+  float there = has_normals ? 1.0 : smoothstep(0.8 * rim, 1.2 * rim, thickness);
+  thickness += 0.5;
+  // Deep liquid lets through more than its depth would: a pool shall not be black.
+  float deep = thickness / (1.0 + 0.12 * thickness);
+  vec3 body = vec3(0.015, 0.13, 0.22) * (0.6 + 0.5 * max(0.0, dot(normal, lamp)));
+  through = through * exp(-deep * vec3(0.42, 0.145, 0.06)) + body * (1.0 - exp(-0.12 * deep));
 
-  float mirrored = 0.025 + 0.975 * pow(1.0 - facing, 5.0);
-  vec3 mirror = surroundings(reflect(ray, normal));
+  through *= 1.0 - 0.45 * pow(1.0 - facing, 2.0);  // a steep side bends rays to where it is darker
+  float mirrored = 0.04 + 0.96 * pow(1.0 - facing, 5.0);
+  vec3 mirror_ray = reflect(ray, normal);
+  vec3 mirror = mix(surroundings(mirror_ray), behind, smoothstep(0.3, 0.95, -mirror_ray.z));  // grazing: straight on
   vec3 half_way = normalize(lamp - ray);
-  float glint = pow(max(0.0, dot(normal, half_way)), 350.0);
-  lit.rgb = mix(through, mirror, mirrored) + vec3(1.1) * glint;
+  float glint = pow(max(0.0, dot(normal, half_way)), 220.0);
+  lit.rgb = mix(behind, mix(through, mirror, mirrored) + vec3(1.3) * glint, there);
 }
 )";
 

@@ -153,6 +153,7 @@ struct Painter::Impl {
   void cast_shadows(const Light& light, const Appearance& appearance) const {
     SceneView view = view_of(light.lens, appearance);
     view.ground = false;
+    if (liquid(appearance)) view.radius = 0.8 * stage.spacing;  // no light between particles
     view.spheres = appearance.look != Look::surface;
     view.skin = appearance.look == Look::surface;
     scene_pass.draw(shadow_map, view, spheres, solids, skin);
@@ -165,7 +166,7 @@ struct Painter::Impl {
         std::max(moment_box.reach(), view_of({}, appearance).ground ? ground_reach * stage_box.reach() : 0);
     const Lens lens = lens_of(camera, aspect, length(moment_box.centre() - camera.target) + reach + stage.spacing);
     Light light = light_for(camera);
-    if (liquid(appearance)) light.shadow_depth = 0.6;  // what is clear casts a lighter one
+    if (liquid(appearance)) light.shadow = {0.42, 0.60, 0.68};  // what is clear lets light through
     glDisable(GL_BLEND);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_CULL_FACE);

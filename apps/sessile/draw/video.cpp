@@ -99,11 +99,34 @@ Video::Video(const std::filesystem::path& file, int width, int height, double fr
   try {
     const Connection connection;
     pipe_ = connection.ours;
-    const std::vector<std::string> arguments{
-        "ffmpeg",  "-loglevel", "error",       "-y",      "-f",  "rawvideo", "-pixel_format", "rgb24",     "-video_size",
-        size,      "-framerate", rate,         "-i",      "pipe:0", "-an",   "-vf",           "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-        "-c:v",    "libx264",   "-pix_fmt",    "yuv420p", "-crf", "18",      "-movflags",     "+faststart", "-f",
-        "mp4",     part_.string()};
+    const std::vector<std::string> arguments{"ffmpeg",
+                                             "-loglevel",
+                                             "error",
+                                             "-y",
+                                             "-f",
+                                             "rawvideo",
+                                             "-pixel_format",
+                                             "rgb24",
+                                             "-video_size",
+                                             size,
+                                             "-framerate",
+                                             rate,
+                                             "-i",
+                                             "pipe:0",
+                                             "-an",
+                                             "-vf",
+                                             "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                             "-c:v",
+                                             "libx264",
+                                             "-pix_fmt",
+                                             "yuv420p",
+                                             "-crf",
+                                             "18",
+                                             "-movflags",
+                                             "+faststart",
+                                             "-f",
+                                             "mp4",
+                                             part_.string()};
     try {
       process_ = start(arguments, connection.theirs, words_);
     } catch (...) {

@@ -1,81 +1,115 @@
 #include <fmt/format.h>
+#include <omp.h>
 
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
-#include <chrono>
 #include "commands.h"
-#include "draw/gl.h"
-#include "draw/headless.h"
 #include "draw/image.h"
-#include "draw/ink.h"
-#include "draw/legend.h"
 #include "draw/painter.h"
-#include "sessile/results/results.h"
-#include "sessile/surface/reconstruct.h"
-#include "shown.h"
+#include "picture/footage.h"
+#include "picture/options.h"
+#include "picture/studio.h"
+#include "progress.h"
+#include "say.h"
+#include "sessile/core/error.h"
+#include "signals.h"
 
 namespace sessile::app {
 namespace {
-struct PictureOptions {
-  std::string source, output, look = "particles";
-  int width = 1280, height = 720, fineness = 2;
-  int repeat = 1;
-  double zoom = 1, azimuth = 30, elevation = 25;
-  std::optional<double> time;
+
+constexpr std::size_t most_panels = 8;
+
+/// What was asked for cannot be: the program ends as for wrong usage.
+struct BadInput : Error {
+  using Error::Error;
 };
 
-int picture(const PictureOptions& o) {
-  const Results results = open_results(o.source);
-  const draw::Stage stage = stage_of(results.scene);
-  const Snapshot frame = read_frame(o.time ? frame_at(results, *o.time).file : results.frames.back().file);
-  draw::Moment moment = moment_of(frame, "", stage);
-  draw::HeadlessContext context;
-  draw::Painter painter(stage);
-  painter.show(moment);
-  draw::Camera camera;
-  camera.up = stage.up;
-  camera.azimuth = o.azimuth;
-  camera.elevation = o.elevation;
-  camera.fit(stage.low, stage.high, double(o.width) / o.height, draw::legend_share());
-  camera.zoom(o.zoom);
-  draw::Appearance appearance;
-  appearance.look = o.look == "liquid"    ? draw::Look::liquid
-                    : o.look == "surface" ? draw::Look::surface
-                                          : draw::Look::particles;
-  if (appearance.look == draw::Look::surface) {
-    moment.surface = reconstruct(frame, stage.spacing, {});
-    painter.show(moment);
+/// Calls what finds out whether the input is good. Throws BadInput of anything wrong with it; SceneError as it is.
+template <class F>
+auto judged(F&& f) {
+  try {
+    return f();
+  } catch (const SceneError&) {
+    throw;
+  } catch (const Error& e) {
+    throw BadInput(e.what());
   }
-  appearance.fineness = o.fineness;
-  draw::gl::Target target(o.width, o.height, {GL_RGBA8});
-  for (int k = 0; k < o.repeat; ++k) {
-    auto t0 = std::chrono::steady_clock::now();
-    painter.paint(camera, appearance, o.width, o.height, target.framebuffer());
-    glFinish();
-    fmt::print("{:.1f} ms\n", 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count());
+}
+
+int take_picture(Studio& studio, auto& footage, const PictureOptions& options) {
+  if (footage.count() > most_panels) {
+    throw BadInput(fmt::format("{} frames do not stand side by side; {} do, and --video shows them one after the other",
+                               footage.count(), most_panels));
   }
-  draw::Ink ink(o.width, o.height);
-  ink.draw(target.framebuffer(),
-           [&] { draw::draw_legend(moment, appearance, own_range(moment), float(o.width), float(o.height)); });
-  draw::write_png(o.output, draw::read_pixels(o.width, o.height, target.framebuffer()));
+  std::vector<draw::Moment> moments;
+  footage.play([&](draw::Moment&& moment) { moments.push_back(std::move(moment)); });
+  if (stop_asked() || moments.empty()) return interrupted;
+  studio.set_up(footage.stage(), moments, moments.size());
+  draw::write_png(options.picture, studio.draw(moments, options.range.value_or(common_range(moments))));
   return done;
 }
+
+/// What a video shows is known beforehand only of a folder; a scene's colours widen as it runs.
+std::vector<draw::Moment> preview(const FolderFootage& footage) { return footage.sample(); }
+std::vector<draw::Moment> preview(const SceneFootage& /*footage*/) { return {}; }
+
+int take_video(Studio& studio, auto& footage, const PictureOptions& options) {
+  std::vector<draw::Moment> seen_before = preview(footage);
+  std::optional<std::pair<float, float>> range = options.range;
+  if (!range && !seen_before.empty()) range = common_range(seen_before);
+  studio.set_up(footage.stage(), seen_before, 1);
+  seen_before.clear();
+  draw::Video video(options.video, options.size.first, options.size.second, options.frames_per_second);
+  CountProgress progress(
+      std::is_same_v<decltype(footage), FolderFootage&> ? progress_style(options.progress) : ProgressStyle::none,
+      "frames", static_cast<std::int64_t>(footage.count()));
+  std::int64_t count = 0;
+  footage.play([&](draw::Moment&& moment) {
+    const std::pair<float, float> own = draw::own_range(moment);
+    if (!range) range = own;
+    if (!options.range) range = std::pair{std::min(range->first, own.first), std::max(range->second, own.second)};
+    video.add(studio.draw({&moment, 1}, *range));
+    progress.update(++count, fmt::format("t = {:.4g} s", moment.time));
+  });
+  if (count == 0) return interrupted;
+  video.finish();
+  if (stop_asked()) say(stderr, fmt::format("interrupted; the video holds {} of {} frames\n", count, footage.count()));
+  return stop_asked() ? interrupted : done;
+}
+
+template <class Footage>
+int take(const PictureOptions& options) {
+  Footage footage = judged([&] { return Footage(options); });
+  Studio studio(options);  // before a long run: this machine may not be able to draw
+  heed_signals();
+  return options.video.empty() ? take_picture(studio, footage, options) : take_video(studio, footage, options);
+}
+
+int picture(const PictureOptions& options) {
+  if (const std::string reason = clash(options); !reason.empty()) {
+    say(stderr, fmt::format("sessile: {}\n", reason));
+    return bad_input;
+  }
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(options.source, ignored);
+  try {
+    return is_folder ? take<FolderFootage>(options) : take<SceneFootage>(options);
+  } catch (const BadInput& e) {
+    say(stderr, fmt::format("sessile: {}\n", e.what()));
+    return bad_input;
+  }
+}
+
 }  // namespace
 
 void add_picture(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<PictureOptions>();
-  CLI::App* command = program.add_subcommand("picture", "Draw a scene or the results of a run.");
-  command->add_option("source", options->source)->required();
-  command->add_option("-o,--output", options->output)->required();
-  command->add_option("--look", options->look);
-  command->add_option("--time", options->time);
-  command->add_option("--fineness", options->fineness);
-  command->add_option("--repeat", options->repeat);
-  command->add_option("--zoom", options->zoom);
-  command->add_option("--azimuth", options->azimuth);
-  command->add_option("--elevation", options->elevation);
-  command->add_option("--width", options->width);
-  command->add_option("--height", options->height);
+  CLI::App* command = program.add_subcommand("picture", "Draw a picture or a video of a run's results, or of a scene.");
+  add_picture_options(*command, *options);
   command->callback([options, &exit_code] { exit_code = picture(*options); });
 }
+
 }  // namespace sessile::app

@@ -48,6 +48,7 @@ ResultSource::ResultSource(Results results)
       stage_(app::stage_of(scene_)),
       history_(followed_series()),
       player_(std::move(results), stage_) {
+  notes_.read_only = true;
   read_history();
   player_.show(wish_);
 }
@@ -177,9 +178,8 @@ void ResultSource::draw_controls() {
 
 void ResultSource::draw_parameters() {
   ImGui::TextDisabled("As the run had them; they cannot be changed.");
-  ImGui::PushStyleVar(ImGuiStyleVar_DisabledAlpha, 0.9F);
-  Scene copy = scene_;  // what one could type is dropped
-  edit_fields(copy, notes_);
+  ImGui::PushStyleVar(ImGuiStyleVar_DisabledAlpha, 0.85F);
+  edit_fields(scene_, notes_);
   ImGui::PopStyleVar();
 }
 
