@@ -37,9 +37,9 @@ class Window {
   /// Whether anything came from the user or the system since one last asked.
   bool take_events();
 
-  int width() const;                      ///< of the framebuffer [pixels]
-  int height() const;                     ///< of the framebuffer [pixels]
-  float scale() const { return scale_; }  ///< pixels of a unit of the interface
+  int width() const;                          ///< of the framebuffer [pixels]
+  int height() const;                         ///< of the framebuffer [pixels]
+  float density() const { return density_; }  ///< pixels of a unit of the interface
 
   void begin_frame();
   void end_frame();  ///< draws the interface over what stands in the framebuffer, and shows both
@@ -49,7 +49,7 @@ class Window {
 
   GLFWwindow* window_ = nullptr;
   ImGuiContext* context_ = nullptr;
-  float scale_ = 1;
+  float density_ = 1;
   std::vector<Action> actions_;
   bool events_ = true;
 };
