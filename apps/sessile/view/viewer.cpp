@@ -157,7 +157,8 @@ void Viewer::draw_status() {
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("status", nullptr, flags)) {
     ImGui::TextUnformatted(source_.status().c_str());
-    const std::string right = fmt::format("{:.0f} frames/s   H: keys", frames_per_second_);
+    const std::string rate = source_.moves() ? fmt::format("{:.3g} frames/s   ", frames_per_second_) : "";
+    const std::string right = rate + "H: keys";
     const float place = size.x - ImGui::CalcTextSize(right.c_str()).x - 0.7F * ImGui::GetFontSize();
     ImGui::SameLine();
     if (ImGui::GetCursorPosX() < place) {
