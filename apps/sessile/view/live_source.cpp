@@ -167,7 +167,7 @@ void LiveSource::draw_controls() {
 
 void LiveSource::draw_parameters() {
   if (!notes_.pending.empty()) {
-    ImGui::TextColored(amber, "%s", fmt::format("{} changed: takes effect at reset", notes_.pending.size()).c_str());
+    ImGui::TextColored(amber, "%s", fmt::format("{} wait for a reset", notes_.pending.size()).c_str());
     ImGui::SameLine();
     if (ImGui::SmallButton("reset now")) act(Action::reset);
     ImGui::SameLine();
