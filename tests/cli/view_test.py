@@ -1,6 +1,6 @@
 """`sessile view` as a user meets it: in a window of a display in memory, by keys and the mouse."""
+import ctypes
 import os
-import pathlib
 import select
 import shutil
 import subprocess
@@ -32,6 +32,27 @@ class Display:
     def end(self):
         self.process.terminate()
         self.process.wait()
+
+
+class ClientMessage(ctypes.Structure):
+    """XClientMessageEvent, with the room of an XEvent."""
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("message_type", ctypes.c_ulong),
+                ("format", ctypes.c_int), ("data", ctypes.c_long * 5), ("rest", ctypes.c_long * 24)]
+
+
+def ask_to_close(display_name, window):
+    """What a window manager sends when one presses the cross; there is none on the display in memory."""
+    x = ctypes.CDLL("libX11.so.6")
+    x.XOpenDisplay.restype = ctypes.c_void_p
+    x.XInternAtom.restype = ctypes.c_ulong
+    display = ctypes.c_void_p(x.XOpenDisplay(display_name.encode()))
+    event = ClientMessage(type=33, window=window, format=32)
+    event.message_type = x.XInternAtom(display, b"WM_PROTOCOLS", 0)
+    event.data[0] = x.XInternAtom(display, b"WM_DELETE_WINDOW", 0)
+    x.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.byref(event))
+    x.XSync(display, 0)
+    x.XCloseDisplay(display)
 
 
 @unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
@@ -214,9 +235,9 @@ class View(CliTest):
 
     def test_ends_when_its_window_is_closed(self):
         self.open(self.write(tiny()), "--play")
-        self.xdotool("windowclose", self.window)  # asks as a window manager does, or takes it away
-        self.viewer.communicate(timeout=WAIT)
-        self.assertIsNotNone(self.viewer.returncode)
+        ask_to_close(self.display.name, int(self.window.splitlines()[0]))
+        out, err = self.viewer.communicate(timeout=WAIT)
+        self.assertEqual((self.viewer.returncode, out, err), (DONE, "", ""))
 
     def test_ends_after_so_many_frames(self):
         self.call("view", self.write(tiny()), "--frames", "3", "--size", "400x300")

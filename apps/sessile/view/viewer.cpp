@@ -86,8 +86,8 @@ void Viewer::draw_frame() {
   last_ = Clock::now();
   frames_per_second_ += std::min(1.0, passed / 0.5) * (1 / std::max(passed, 1e-6) - frames_per_second_);
   window_.begin_frame();
-  for (const Action action : window_.take_actions()) act(action);
   draw_interface();
+  for (const Action action : window_.take_actions()) act(action);
   const Region region = picture();
   if (follow_mouse(settings_.camera, static_cast<float>(std::max(1, region.height)))) dirty_ = true;
   paint();
