@@ -68,6 +68,7 @@ TEST(LiveRun, ShowsTheStartAndWaits) {
   EXPECT_EQ(watch.steps(), 0);
   EXPECT_EQ(watch.state, LiveState::paused);
   EXPECT_EQ(watch.simulations, 1);
+  EXPECT_EQ(watch.stage->spacing, 0.1);
 }
 
 TEST(LiveRun, StepsExactlyAsOftenAsAsked) {
@@ -182,6 +183,7 @@ TEST(LiveRun, TakesParametersBetweenSteps) {
 TEST(LiveRun, TellsOfAStepThatFailsAndIsMendedByAReset) {
   Scene scene = test::block(3, 1e30, 1e31);
   scene.time.dt_max = 1e31;
+  scene.output.frame_interval = 1e30;
   scene.gravity = {0, 0, -1e30};
   LiveRun run{Simulation(scene)};
   Watcher watch(run);
@@ -216,12 +218,13 @@ TEST(LiveRun, ColoursByWhatIsAsked) {
   EXPECT_EQ(watch.moment->field, "height") << "a field that is not there took the place of one that is";
   scene.forces.clear();
   run.colour_by("acceleration_surface_feature");
+  ASSERT_TRUE(watch.until([](const Watcher& w) { return w.moment->field == "acceleration_surface_feature"; }));
   run.change(scene);
   ASSERT_TRUE(watch.until([&](const Watcher& w) { return w.moment && w.moment->field == "speed"; }));
 }
 
 TEST(LiveRun, EndsWhileItPlays) {
-  LiveRun run{Simulation(test::block(4, 2e-3, 1e5))};
+  LiveRun run{Simulation(test::block(4, 2e-3, 1e4))};
   run.limit({});
   run.play();
   std::this_thread::sleep_for(5ms);

@@ -58,7 +58,6 @@ bool Capture::add(const draw::Image& image, bool once) {
 
 std::string Capture::finish() {
   const auto video = std::move(video_);
-  if (pictures_ == 0) return "no video: nothing was shown while it was recorded";
   video->finish();
   return fmt::format("saved {}, {:.1f} s", video_file_.string(), static_cast<double>(pictures_) / frames_per_second);
 }

@@ -107,7 +107,10 @@ class Editor {
       return list(path, f, value_);
     } else {
       begin_row(path, f, f.key);
-      return end_row(path, single(f, value_));
+      ImGui::BeginDisabled(notes_.read_only);
+      const bool changed = single(f, value_);
+      ImGui::EndDisabled();
+      return end_row(path, changed);
     }
   }
 
@@ -141,6 +144,7 @@ class Editor {
   bool optional(const std::string& path, const F& f, std::optional<T>& value_) {
     begin_row(path, f, f.key);
     bool given = value_.has_value(), changed = false;
+    ImGui::BeginDisabled(notes_.read_only);
     if (ImGui::Checkbox("##given", &given)) {
       changed = true;
       if (given) {
@@ -160,6 +164,7 @@ class Editor {
     } else {
       ImGui::NewLine();
     }
+    ImGui::EndDisabled();
     changed = end_row(path, changed);
     if constexpr (is_group<T>) {
       if (value_) changed |= value(path, f, *value_);
@@ -174,7 +179,9 @@ class Editor {
     ImGui::PushID(path.c_str());
     const auto names = alternative_names<T>();
     auto chosen = value_.index();
+    ImGui::BeginDisabled(notes_.read_only);
     bool changed = edit_choice(chosen, names);
+    ImGui::EndDisabled();
     if (changed) {
       std::size_t k = 0;
       for_each_alternative<T>([&]<Named U>(std::type_identity<U>) {
@@ -195,13 +202,11 @@ class Editor {
   bool list(const std::string& path, const F& f, std::vector<T>& values) {
     const bool open =
         begin_tree(path, f, fmt::format("{} ({}){}", f.key, values.size(), needs_reset(path) ? " *" : ""));
-    ImGui::PushID(path.c_str());
     bool changed = false;
-    if (ImGui::SmallButton("add")) {
+    if (button(path, "add")) {
       values.emplace_back();
       changed = true;
     }
-    ImGui::PopID();
     tell_fault(path);
     if (!open) return changed;
     std::optional<std::size_t> dropped;
@@ -223,7 +228,8 @@ class Editor {
     return changed || dropped;
   }
 
-  static bool button(const std::string& id, const char* text) {
+  bool button(const std::string& id, const char* text) const {
+    if (notes_.read_only) return false;
     ImGui::PushID(id.c_str());
     const bool pressed = ImGui::SmallButton(text);
     ImGui::PopID();

@@ -13,6 +13,7 @@ namespace sessile::viewer {
 struct FieldNotes {
   std::map<std::string, std::string> faults;  ///< by path; what is wrong with a value
   std::set<std::string> pending;              ///< paths of values that wait for a reset
+  bool read_only = false;                     ///< whether nothing can be changed
   bool marks_resets = false;                  ///< whether parameters that need a reset are marked
 };
 

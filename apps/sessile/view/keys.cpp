@@ -28,8 +28,8 @@ constexpr auto keys = std::to_array<Key>({
 
 constexpr auto bound = std::to_array<Binding>({
     {Action::play, "Space", "play or pause"},
-    {Action::forward, "Right, .", "one step of a simulation, one frame of results"},
-    {Action::backward, "Left, ,", "one frame back"},
+    {Action::forward, "Right, period", "one step of a simulation, one frame of results"},
+    {Action::backward, "Left, comma", "one frame of results back"},
     {Action::reset, "R", "from the start, with the parameters of the panel"},
     {Action::fit, "F, Home", "all of the liquid in the picture"},
     {Action::particles, "1", "show particles"},

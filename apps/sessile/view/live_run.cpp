@@ -26,6 +26,7 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 LiveRun::LiveRun(Simulation simulation, int threads)
     : simulation_(std::move(simulation)),
       threads_(threads),
+      stage_(app::stage_of(simulation_.scene())),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 template <class F>

@@ -9,6 +9,7 @@
 #include "sessile/output/check.h"
 #include "sessile/scene/tuning.h"
 #include "sessile/scene/validate.h"
+#include "shown.h"
 #include "view/widgets.h"
 
 namespace sessile::viewer {
@@ -35,7 +36,11 @@ std::string state_text(LiveState state) {
 }  // namespace
 
 LiveSource::LiveSource(Simulation simulation, int threads)
-    : running_(simulation.scene()), wanted_(running_), run_(std::move(simulation), threads), history_(followed) {
+    : running_(simulation.scene()),
+      wanted_(running_),
+      stage_(app::stage_of(running_)),
+      run_(std::move(simulation), threads),
+      history_(followed) {
   notes_.marks_resets = true;
 }
 
@@ -155,14 +160,14 @@ void LiveSource::draw_controls() {
   ImGui::SameLine();
   ImGui::BeginDisabled(!limited_);
   ImGui::SetNextItemWidth(-FLT_MIN);
-  changed |= ImGui::SliderFloat("##speed", &speed_, 0.001F, 100, "%.3g simulated s / s", ImGuiSliderFlags_Logarithmic);
+  changed |= ImGui::SliderFloat("##speed", &speed_, 0.001F, 100, "%.3g x real time", ImGuiSliderFlags_Logarithmic);
   ImGui::EndDisabled();
   if (changed) run_.limit(limited_ ? std::optional<double>(speed_) : std::nullopt);
 }
 
 void LiveSource::draw_parameters() {
   if (!notes_.pending.empty()) {
-    ImGui::TextColored(amber, "%s", fmt::format("{} changed: takes effect at reset", notes_.pending.size()).c_str());
+    ImGui::TextColored(amber, "%s", fmt::format("{} wait for a reset", notes_.pending.size()).c_str());
     ImGui::SameLine();
     if (ImGui::SmallButton("reset now")) act(Action::reset);
     ImGui::SameLine();
@@ -190,7 +195,7 @@ std::string LiveSource::status() const {
   if (now_.out > 0) text += fmt::format(", {} out", now_.out);
   if (now_.lost > 0) text += fmt::format(", {} lost", now_.lost);
   if (step_milliseconds_ > 0) text += fmt::format("  |  {:.3g} ms a step", step_milliseconds_);
-  if (state_ == LiveState::playing) text += fmt::format("  |  {:.2g} s / s", pace_);
+  if (state_ == LiveState::playing) text += fmt::format("  |  {:.2g} x real time", pace_);
   return text;
 }
 

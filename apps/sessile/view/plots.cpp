@@ -52,8 +52,8 @@ std::string number(double value, double distance) {
 }
 
 void draw_marks(ImDrawList& draw, const Axes& axes, float letter) {
-  const int rows = std::max(2, static_cast<int>(axes.size.y / (2 * letter)));
-  const int columns = std::max(2, static_cast<int>(axes.size.x / (5 * letter)));
+  const int rows = std::max(3, static_cast<int>(axes.size.y / (1.6F * letter)));
+  const int columns = std::max(3, static_cast<int>(axes.size.x / (3.2F * letter)));
   const double dy = mark_distance(axes.y.length(), rows), dx = mark_distance(axes.x.length(), columns);
   for (double y = dy * std::ceil(axes.y.low / dy - 1e-9); y <= axes.y.high; y += dy) {
     const float at = axes.down(y);

@@ -48,6 +48,7 @@ ResultSource::ResultSource(Results results)
       stage_(app::stage_of(scene_)),
       history_(followed_series()),
       player_(std::move(results), stage_) {
+  notes_.read_only = true;
   read_history();
   player_.show(wish_);
 }
@@ -172,14 +173,13 @@ void ResultSource::draw_controls() {
   ImGui::Checkbox("loop", &loop_);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::SliderFloat("##speed", &speed_, 0.001F, 100, "%.3g simulated s / s", ImGuiSliderFlags_Logarithmic);
+  ImGui::SliderFloat("##speed", &speed_, 0.001F, 100, "%.3g x real time", ImGuiSliderFlags_Logarithmic);
 }
 
 void ResultSource::draw_parameters() {
   ImGui::TextDisabled("As the run had them; they cannot be changed.");
-  ImGui::PushStyleVar(ImGuiStyleVar_DisabledAlpha, 0.9F);
-  Scene copy = scene_;  // what one could type is dropped
-  edit_fields(copy, notes_);
+  ImGui::PushStyleVar(ImGuiStyleVar_DisabledAlpha, 0.85F);
+  edit_fields(scene_, notes_);
   ImGui::PopStyleVar();
 }
 

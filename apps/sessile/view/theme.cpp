@@ -23,7 +23,7 @@ void set_theme(float scale) {
   const auto tinted = [&](float alpha) { return ImVec4{accent.x, accent.y, accent.z, alpha}; };
   colors[ImGuiCol_Text] = {0.90F, 0.92F, 0.94F, 1};
   colors[ImGuiCol_TextDisabled] = {0.56F, 0.60F, 0.64F, 1};
-  colors[ImGuiCol_WindowBg] = {0.105F, 0.115F, 0.13F, 0.97F};
+  colors[ImGuiCol_WindowBg] = {0.105F, 0.115F, 0.13F, 1};
   colors[ImGuiCol_PopupBg] = {0.13F, 0.145F, 0.165F, 0.98F};
   colors[ImGuiCol_FrameBg] = {0.175F, 0.19F, 0.215F, 1};
   colors[ImGuiCol_FrameBgHovered] = {0.22F, 0.245F, 0.28F, 1};
@@ -37,6 +37,8 @@ void set_theme(float scale) {
   colors[ImGuiCol_CheckMark] = accent;
   colors[ImGuiCol_SliderGrab] = accent;
   colors[ImGuiCol_SliderGrabActive] = tinted(0.8F);
+  colors[ImGuiCol_TitleBg] = colors[ImGuiCol_TitleBgActive] = {0.165F, 0.18F, 0.205F, 1};
+  colors[ImGuiCol_ResizeGrip] = tinted(0.15F);
   colors[ImGuiCol_Separator] = {0.24F, 0.265F, 0.30F, 1};
   style.ScaleAllSizes(scale);
 }

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "prepare.h"
+#include "sessile/core/error.h"
 #include "sessile/results/results.h"
 #include "view/keys.h"
 #include "view/live_source.h"
@@ -52,6 +53,9 @@ int view(const ViewOptions& options) {
   std::error_code error;
   std::unique_ptr<viewer::Source> source;
   if (std::filesystem::is_directory(options.source, error)) {
+    if (!options.overrides.empty()) {
+      throw SceneError("--set changes a scene; " + options.source + " is a folder of results");
+    }
     source = std::make_unique<viewer::ResultSource>(open_results(options.source));
   } else {
     const ResolvedScene resolved = read_runnable_scene(options.source, options.overrides);

@@ -15,9 +15,10 @@
 namespace sessile::viewer {
 namespace {
 
-constexpr double frame_time = 1.0 / 60;                        // where the display does not set the pace [s]
-constexpr double idle_time = 0.25;                             // between looks when nothing moves [s]
-constexpr double notice_time = 6;                              // [s]
+constexpr double frame_time = 1.0 / 60;  // where the display does not set the pace [s]
+constexpr double quick_frame = 0.03;     // after a frame that took no longer the next may follow at once [s]
+constexpr double idle_time = 0.25;       // between looks when nothing moves [s]
+constexpr double notice_time = 6;        // [s]
 constexpr float panel_letters = 25, least_panel_letters = 14;  // width of the panel
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -72,7 +73,9 @@ bool Viewer::worth_drawing() {
   if (window_.take_events()) restless_ = 3;
   const bool notice_ends = !notice_.empty() && Clock::now() > notice_end_;
   if (notice_ends) notice_.clear();
-  const bool worth = dirty_ || restless_ > 0 || notice_ends || capture_.due() || options_.frames > 0 ||
+  // Where drawing takes long, on processors that step the liquid as well, half of the time is left to the steps.
+  const bool rested = seconds_since(shown_) >= cost_ - quick_frame;
+  const bool worth = (dirty_ && rested) || restless_ > 0 || notice_ends || capture_.due() || options_.frames > 0 ||
                      ImGui::GetIO().WantTextInput;  // its cursor blinks
   if (restless_ > 0) --restless_;
   return worth;
@@ -83,21 +86,23 @@ void Viewer::draw_frame() {
   last_ = Clock::now();
   frames_per_second_ += std::min(1.0, passed / 0.5) * (1 / std::max(passed, 1e-6) - frames_per_second_);
   window_.begin_frame();
-  for (const Action action : window_.take_actions()) act(action);
   draw_interface();
+  for (const Action action : window_.take_actions()) act(action);
   const Region region = picture();
   if (follow_mouse(settings_.camera, static_cast<float>(std::max(1, region.height)))) dirty_ = true;
   paint();
   canvas_.copy_to(region, window_.height());
   window_.end_frame();
+  shown_ = Clock::now();
+  cost_ = seconds_since(last_);
   if (capture_.recording()) film(std::exchange(fresh_, false));
 }
 
 /// Where the picture stands: what panel and status line leave.
 Region Viewer::picture() const {
-  const int left = settings_.panel ? static_cast<int>(std::lround(panel_width_)) : 0;
-  return {left, 0, std::max(1, window_.width() - left),
-          std::max(1, window_.height() - static_cast<int>(std::lround(status_height_)))};
+  const auto pixels = [&](float units) { return static_cast<int>(std::lround(units * window_.density())); };
+  const int left = settings_.panel ? pixels(panel_width_) : 0;
+  return {left, 0, std::max(1, window_.width() - left), std::max(1, window_.height() - pixels(status_height_))};
 }
 
 void Viewer::paint() {
@@ -152,7 +157,8 @@ void Viewer::draw_status() {
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("status", nullptr, flags)) {
     ImGui::TextUnformatted(source_.status().c_str());
-    const std::string right = fmt::format("{:.0f} frames/s   H: keys", frames_per_second_);
+    const std::string rate = source_.moves() ? fmt::format("{:.3g} frames/s   ", frames_per_second_) : "";
+    const std::string right = rate + "H: keys";
     const float place = size.x - ImGui::CalcTextSize(right.c_str()).x - 0.7F * ImGui::GetFontSize();
     ImGui::SameLine();
     if (ImGui::GetCursorPosX() < place) {
@@ -171,15 +177,16 @@ void Viewer::draw_notice() {
   if (text.empty()) return;
   const Region region = picture();
   const float letter = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos({static_cast<float>(region.x) + 0.5F * static_cast<float>(region.width), 2.6F * letter},
-                          ImGuiCond_Always, {0.5F, 0});
+  const float left = static_cast<float>(region.x) / window_.density();
+  const float width = static_cast<float>(region.width) / window_.density();
+  ImGui::SetNextWindowPos({left + 0.5F * width, 2.6F * letter}, ImGuiCond_Always, {0.5F, 0});
   ImGui::SetNextWindowBgAlpha(0.85F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5F * letter);
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                                      ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("notice", nullptr, flags)) {
-    ImGui::PushTextWrapPos(std::max(20 * letter, 0.8F * static_cast<float>(region.width)));
+    ImGui::PushTextWrapPos(std::max(20 * letter, 0.8F * width));
     if (!source_.fault().empty()) {
       ImGui::TextColored(red, "%s", text.c_str());
     } else {

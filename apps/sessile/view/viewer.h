@@ -60,7 +60,8 @@ class Viewer {
   float panel_width_ = 0, status_height_ = 0;
   int restless_ = 3;  // pictures to draw although nothing seems to change: ImGui answers one late
   std::string notice_;
-  Clock::time_point notice_end_{}, last_ = Clock::now();
+  Clock::time_point notice_end_{}, last_ = Clock::now(), shown_ = last_;
+  double cost_ = 0;  // of the last picture [s]
   double frames_per_second_ = 0;
   std::int64_t drawn_ = 0;
 };

@@ -35,7 +35,11 @@ void Viewer::act(Action action) {
       settings_.help = !settings_.help;
       break;
     case Action::quit:
-      window_.close();
+      if (settings_.help) {
+        settings_.help = false;
+      } else {
+        window_.close();
+      }
       break;
     default:
       dirty_ = true;
@@ -107,11 +111,13 @@ void Viewer::toggle_clip() {
 void Viewer::toggle_video() {
   try {
     if (capture_.recording()) {
+      if (!source_.video_by_moment()) capture_.add(canvas_.image(), false);  // up to now
       say(capture_.finish());
     } else {
       paint();
       say(capture_.start(canvas_.width(), canvas_.height(), canvas_.moment().time));
-      fresh_ = true;  // it begins with what is shown
+      capture_.add(canvas_.image(), true);  // it begins with what is shown
+      fresh_ = false;
     }
   } catch (const std::exception& e) {
     say(e.what());

@@ -75,7 +75,10 @@ Window::Window(const std::string& title, int width, int height) {
   glfwSwapInterval(1);
   float across = 1, down = 1;
   glfwGetWindowContentScale(window_, &across, &down);
-  scale_ = std::clamp(std::max(across, down), 0.5F, 4.0F);
+  int units = width;
+  glfwGetWindowSize(window_, &units, nullptr);
+  density_ = static_cast<float>(this->width()) / static_cast<float>(std::max(1, units));
+  const float scale = std::clamp(std::max(across, down) / density_, 0.5F, 4.0F);
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, Callbacks::key);
   glfwSetCursorPosCallback(window_, Callbacks::position);
@@ -85,17 +88,18 @@ Window::Window(const std::string& title, int width, int height) {
   glfwSetFramebufferSizeCallback(window_, Callbacks::size);
 
   IMGUI_CHECKVERSION();
-  ImGui::CreateContext();
+  context_ = ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;              // nothing is left in the user's folder
   ImGui::GetIO().ConfigDragClickToInputText = true;  // a click on a number lets one type
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
-  draw::load_letters(font_pixels * scale_);
-  set_theme(scale_);
+  draw::load_letters(font_pixels * scale);
+  set_theme(scale);
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the callbacks above as well
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
 Window::~Window() {
+  ImGui::SetCurrentContext(context_);  // pictures have contexts of their own
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();

@@ -6,6 +6,7 @@
 #include "view/keys.h"
 
 struct GLFWwindow;
+struct ImGuiContext;
 
 namespace sessile::viewer {
 
@@ -36,9 +37,9 @@ class Window {
   /// Whether anything came from the user or the system since one last asked.
   bool take_events();
 
-  int width() const;                      ///< of the framebuffer [pixels]
-  int height() const;                     ///< of the framebuffer [pixels]
-  float scale() const { return scale_; }  ///< pixels of a unit of the interface
+  int width() const;                          ///< of the framebuffer [pixels]
+  int height() const;                         ///< of the framebuffer [pixels]
+  float density() const { return density_; }  ///< pixels of a unit of the interface
 
   void begin_frame();
   void end_frame();  ///< draws the interface over what stands in the framebuffer, and shows both
@@ -47,7 +48,8 @@ class Window {
   struct Callbacks;
 
   GLFWwindow* window_ = nullptr;
-  float scale_ = 1;
+  ImGuiContext* context_ = nullptr;
+  float density_ = 1;
   std::vector<Action> actions_;
   bool events_ = true;
 };
