@@ -156,7 +156,7 @@ class InBlender(Rendering):
         (self.folder / "script.py").write_text(script)
         result = subprocess.run([BLENDER, "-b", "--factory-startup", *arguments, "--python-exit-code", "1", "-P",
                                  "script.py"], cwd=self.folder, text=True, capture_output=True, timeout=120,
-                                env=ENVIRONMENT)
+                                env={**ENVIRONMENT, "PWD": str(self.folder)})
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         return json.loads(next(line for line in result.stdout.splitlines() if line.startswith("{")))
 
