@@ -51,6 +51,6 @@ join() {
 }
 
 # The middle of the tablet and of the board seen from a fixed place, so that all columns share it.
-figure fig3 0.5 1,3,12 --camera 'position=[7.6,5.2,6.6]' --camera 'target=[0,0,-0.1]' --camera field_of_view=34
+figure fig3 0.5 1,3,12 --camera 'position=[6.2,4.4,6.4]' --camera 'target=[0.15,0.1,-0.1]' --camera field_of_view=32
 figure fig4 0.5 4,9,16 --camera 'position=[7.4,4.6,3.2]' --camera 'target=[0,0,-0.7]' --camera field_of_view=36
 say "The pictures are docs/paper/fig3.png and docs/paper/fig4.png"

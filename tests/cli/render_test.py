@@ -193,8 +193,9 @@ def show(frame):
     lowest = min(vertex.co.z for vertex in thing.data.vertices)
     frames.append([thing["sessile_frame"], lowest])
 show(0); show(3)
-bpy.ops.wm.save_as_mainfile(filepath="saved.blend")
-bpy.ops.wm.open_mainfile(filepath="saved.blend")
+import os
+bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath("saved.blend"))
+bpy.ops.wm.open_mainfile(filepath=os.path.abspath("saved.blend"))
 show(1)
 thing = bpy.data.objects["liquid"]
 speeds = [item.value for item in thing.data.attributes["speed"].data]
