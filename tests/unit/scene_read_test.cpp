@@ -162,7 +162,7 @@ TEST(SceneReference, IsUpToDate) {
 
 TEST(SceneReference, KnowsEveryGroup) {
   const auto groups = scene_reference();
-  EXPECT_EQ(groups.size(), 27U);
+  EXPECT_EQ(groups.size(), 30U);
   EXPECT_TRUE(has(models_text(), "  iisph: "));
   EXPECT_TRUE(has(models_text(), "  container: "));
   EXPECT_TRUE(has(scene_reference_markdown(), "## Type `box`"));
