@@ -71,28 +71,41 @@ auto timed(double& seconds, F&& f) {
 
 SurfacePlan plan_of(const Scene& scene, const MeshOptions& options) {
   SurfacePlan plan;
-  plan.settings = with_overrides(plan.settings, options.overrides);
+  const SurfaceOutput asked = scene.output.surface.value_or(SurfaceOutput{});
+  plan.settings = with_overrides(asked, options.overrides);
+  if (!asked.formats.empty()) plan.formats = asked.formats;
   if (!options.formats.empty()) plan.formats = options.formats;
   plan.spacing = options.spacing.value_or(scene.spacing);
   plan.frames_per_second = 1 / scene.output.frame_interval;
   return plan;
 }
 
-void print_end(const Tally& tally, std::size_t frames, const std::string& place) {
-  const auto n = static_cast<double>(std::max<std::size_t>(tally.made, 1));
-  std::string text = fmt::format("{} frames", tally.made);
-  if (tally.made < frames) text = fmt::format("{} of {} frames, the others were up to date", tally.made, frames);
-  say(stdout, fmt::format("{}; {} triangles; a frame takes {:.3f} s to reconstruct, {:.3f} s to write\n"
-                          "surfaces and surface.json are in {}\n",
-                          text, tally.triangles, tally.reconstruction / n, tally.writing / n, place));
+/// `good`: frames that were up to date already.
+void print_end(const Tally& tally, std::size_t good, const std::string& place) {
+  std::string text = fmt::format("{} frames were up to date already\n", good);
+  if (tally.made > 0) {
+    const auto n = static_cast<double>(tally.made);
+    text = fmt::format("{} frames, {} triangles; a frame took {:.3f} s to reconstruct, {:.3f} s to write\n", tally.made,
+                       tally.triangles, tally.reconstruction / n, tally.writing / n);
+    if (good > 0) text += fmt::format("{} frames were up to date already\n", good);
+  }
+  say(stdout, fmt::format("{}surfaces and surface.json are in {}\n", text, place));
+}
+
+std::vector<ResultFrame> frames_of(const Results& results, const std::string& selection) {
+  std::vector<ResultFrame> frames;
+  try {
+    for (const std::size_t place : selected(selection, results.frames.size())) frames.push_back(results.frames[place]);
+  } catch (const Error& e) {
+    throw CLI::ValidationError("--frames", e.what());
+  }
+  return frames;
 }
 
 int mesh_folder(const MeshOptions& options) {
   const Results results = open_results(options.source);
-  std::vector<ResultFrame> frames;
-  for (const std::size_t place : selected(options.frames, results.frames.size()))
-    frames.push_back(results.frames[place]);
-  const fs::path folder = options.folder.empty() ? results.folder / "surface" : fs::path(options.folder);
+  const std::vector<ResultFrame> frames = frames_of(results, options.frames);
+  const fs::path folder = options.folder.empty() ? results.folder / surface_folder_name : fs::path(options.folder);
   SurfacePlan plan = plan_of(results.scene, options);
   const ProgressStyle style = progress_style(options.progress);
 
@@ -119,9 +132,10 @@ int mesh_folder(const MeshOptions& options) {
     }
   }
   const bool early = tally.made < work.size();
+  const std::size_t good = frames.size() - work.size();
   if (!early) timed(tally.writing, [&] { surfaces.finish(); });
   if (early) say(stderr, fmt::format("interrupted; {} of {} frames are written\n", tally.made, work.size()));
-  if (options.progress != "json") print_end(tally, frames.size(), folder.string());
+  if (options.progress != "json") print_end(tally, good, folder.string());
   return early ? interrupted : done;
 }
 
@@ -188,7 +202,7 @@ void add_mesh(CLI::App& program, int& exit_code) {
   command->add_option("--frames", options->frames, "frames by their place: 10:20, ::5, 0,3,-1")->type_name("LIST");
   command->add_option("--spacing", options->spacing, "distance of the particles, in place of the scene's")
       ->type_name("METRES")
-      ->check(finite_and_positive, "");
+      ->check([](const std::string& word) { return finite_and_positive_in("m", word); }, "");
   command->add_flag("--again", options->again, "make surfaces anew that are up to date");
   command->add_option("--threads", options->threads, "threads to use (default: all)")
       ->type_name("N")
