@@ -3,7 +3,8 @@
 #
 #   tools/paper_figures.sh [DIR]      results go to DIR (build/paper), pictures to docs/paper/fig3.png and fig4.png
 #
-# SESSILE names another program than build/release/bin/sessile. What is computed and rendered already is not done again.
+# SESSILE names another program than build/release/bin/sessile, SAMPLES other than 64 rays for each pixel. What is computed
+# and rendered already is not done again.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
@@ -27,7 +28,7 @@ figure() {
     local results=$work/$name/$method
     step "Mesh $name, $method" "paper-$name-$method-mesh.log" "$sessile" mesh "$results" --frames "$places"
     step "Render $name, $method" "paper-$name-$method-render.log" \
-      "$sessile" render "$results" --no-video --size "$size" --samples "${SAMPLES:-96}" "$@"
+      "$sessile" render "$results" --no-video --size "$size" --samples "${SAMPLES:-64}" ${THREADS:+--threads "$THREADS"} "$@"
   done
   step "Join $name" "paper-$name-join.log" join "$name"
 }
@@ -51,6 +52,6 @@ join() {
 }
 
 # The middle of the tablet and of the board seen from a fixed place, so that all columns share it.
-figure fig3 0.5 1,3,12 --camera 'position=[7.6,5.2,6.6]' --camera 'target=[0,0,-0.1]' --camera field_of_view=34
+figure fig3 0.5 1,3,12 --camera 'position=[6.2,4.4,6.4]' --camera 'target=[0.15,0.1,-0.1]' --camera field_of_view=32
 figure fig4 0.5 4,9,16 --camera 'position=[7.4,4.6,3.2]' --camera 'target=[0,0,-0.7]' --camera field_of_view=36
 say "The pictures are docs/paper/fig3.png and docs/paper/fig4.png"

@@ -11,6 +11,8 @@ from sessile_cli import BAD_INPUT, FAILED, INTERRUPTED, CliTest, signal, tiny, u
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools/blender"
 BLENDER = shutil.which("blender")
+# Debian's Blender takes its Python's libraries from beside the first python3 in PATH.
+ENVIRONMENT = {**os.environ, "PATH": f"{os.path.dirname(BLENDER or '')}:/usr/bin:/bin", "PYTHONDONTWRITEBYTECODE": "1"}
 SMALL = ["--size", "96x64", "--samples", "4", "--threads", "1", "--progress", "plain"]
 
 
@@ -19,7 +21,7 @@ def has_blender():
     if not BLENDER:
         return "there is no program blender"
     probe = subprocess.run([BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr",
-                            "import numpy"], capture_output=True, timeout=120)
+                            "import numpy"], env=ENVIRONMENT, capture_output=True, timeout=120)
     return "" if probe.returncode == 0 else "Blender's Python has no NumPy (Debian: python3-numpy)"
 
 
@@ -84,7 +86,7 @@ class Frames(Rendering):
     def test_renders_what_is_there_and_skips_what_is_rendered(self):
         out, err = self.call("render", "out", *SMALL, "--frames", "0,4", "--no-video", timeout=240)
         self.assertIn("2 frames rendered, 0 were there", out)
-        self.assertIn("frame 2 of 2", err)
+        self.assertIn("2 of 2 frames  frame_000004.png", err)
         self.assertEqual(self.pictures(), ["frame_000000.png", "frame_000004.png"])
         colours = self.colours("out/render/frame_000000.png")
         self.assertGreater(len(colours), 200, "the picture is blank")
@@ -154,7 +156,7 @@ class InBlender(Rendering):
         (self.folder / "script.py").write_text(script)
         result = subprocess.run([BLENDER, "-b", "--factory-startup", *arguments, "--python-exit-code", "1", "-P",
                                  "script.py"], cwd=self.folder, text=True, capture_output=True, timeout=120,
-                                env={**os.environ, "PYTHONPATH": str(TOOLS), "PYTHONDONTWRITEBYTECODE": "1"})
+                                env={**ENVIRONMENT, "PWD": str(self.folder)})
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         return json.loads(next(line for line in result.stdout.splitlines() if line.startswith("{")))
 
@@ -191,8 +193,9 @@ def show(frame):
     lowest = min(vertex.co.z for vertex in thing.data.vertices)
     frames.append([thing["sessile_frame"], lowest])
 show(0); show(3)
-bpy.ops.wm.save_as_mainfile(filepath="saved.blend")
-bpy.ops.wm.open_mainfile(filepath="saved.blend")
+import os
+bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath("saved.blend"))
+bpy.ops.wm.open_mainfile(filepath=os.path.abspath("saved.blend"))
 show(1)
 thing = bpy.data.objects["liquid"]
 speeds = [item.value for item in thing.data.attributes["speed"].data]

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdlib>
 #include <deque>
 #include <string>
 #include <string_view>
@@ -45,7 +46,7 @@ class Listener {
     if (said.starts_with("fault ")) {
       fault_ = said.substr(6);
     } else if (said.starts_with("done ")) {
-      progress_.update(++done_, "");
+      progress_.update(++done_, picture_of({}, std::atoll(said.c_str() + 5)).string());
     }
     log_.append(line + "\n");
   }
@@ -73,8 +74,21 @@ class Listener {
   std::deque<std::string> last_;
 };
 
+fs::path find_blender() {
+  fs::path blender = find_program("blender");
+  if (blender.empty()) {
+    throw Error(
+        "rendering takes Blender, and there is no program `blender`; on Debian: apt install blender python3-numpy");
+  }
+  return blender;
+}
+
 std::vector<std::string> command_for(const fs::path& job_file, int threads) {
-  std::vector<std::string> command{"blender", "--background", "--factory-startup"};
+  const fs::path blender = find_blender();
+  // Debian's Blender takes its Python's libraries from beside the first python3 in PATH, which an environment of the
+  // user's may have put there.
+  const std::string path = fmt::format("PATH={}:/usr/bin:/bin", blender.parent_path().string());
+  std::vector<std::string> command{"env", path, blender.string(), "--background", "--factory-startup"};
   if (threads > 0) {
     command.emplace_back("--threads");
     command.push_back(std::to_string(threads));
@@ -94,12 +108,6 @@ bool run_blender(const RenderJob& job, const BlenderOptions& options) {
   write_whole(job_file, job_json(job));
   Listener listener(log, job.frames.size(), options.progress);
   const ChildEnd end = run_child(command, [&](const std::string& line) { listener.hear(line); });
-  std::error_code error;
-  if (end.missing) {
-    fs::remove(log, error);
-    throw Error(
-        "rendering takes Blender, and there is no program `blender`; on Debian: apt install blender python3-numpy");
-  }
   if (end.interrupted) return false;
   if (!listener.fault().empty()) throw Error(fmt::format("Blender: {} (log: {})", listener.fault(), log.string()));
   if (end.status != 0) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,5 +17,8 @@ struct ChildEnd {
 /// Runs a program with its arguments, found in PATH, and hands over each line that it prints. Ctrl-C ends the child and
 /// returns. Throws Error when the system cannot start another program.
 ChildEnd run_child(const std::vector<std::string>& command, const std::function<void(const std::string&)>& on_line);
+
+/// Where PATH has a program; empty when it has none.
+std::filesystem::path find_program(const std::string& name);
 
 }  // namespace sessile::app

@@ -19,7 +19,7 @@ class Look:
 
 
 LOOKS = {
-    "water": Look(1.33, (0.05, 0.42, 0.70), depth=0.8),
+    "water": Look(1.33, (0.03, 0.38, 0.74), depth=0.8),
     "clear": Look(1.33, (0.70, 0.88, 0.92)),
     "oil": Look(1.47, (0.72, 0.42, 0.03), depth=0.5),
     "honey": Look(1.49, (0.60, 0.19, 0.005), depth=0.3),
@@ -55,7 +55,7 @@ def _transparent(nodes, output, look, tint, depth):
     glass = nodes.add("ShaderNodeBsdfPrincipled", {
         "Base Color": (1, 1, 1, 1), "Roughness": look.roughness, "Transmission": 1.0, "IOR": look.ior})
     # Part of the light is reflected off both faces, and part is bent aside.
-    clear = nodes.add("ShaderNodeBsdfTransparent", {"Color": (0.86, 0.86, 0.86, 1)})
+    clear = nodes.add("ShaderNodeBsdfTransparent", {"Color": (0.93, 0.93, 0.93, 1)})
     path = nodes.add("ShaderNodeLightPath")
     surface = nodes.add("ShaderNodeMixShader", {"Fac": path.outputs["Is Shadow Ray"]})
     nodes.put(surface.inputs[1], glass.outputs["BSDF"])
@@ -74,7 +74,7 @@ def absorption(tint, depth):
     return density, tuple(1 - each / density for each in coefficients)
 
 
-SOLID_COLORS = ((0.62, 0.57, 0.51), (0.30, 0.22, 0.16), (0.16, 0.20, 0.25), (0.28, 0.30, 0.22))
+SOLID_COLORS = ((0.60, 0.58, 0.55), (0.30, 0.22, 0.16), (0.16, 0.20, 0.25), (0.28, 0.30, 0.22))
 
 
 def solid(label, index, look="matte", color=None):

@@ -15,7 +15,7 @@ FOLDER, START, SPEED, SHOWN = "sessile_folder", "sessile_start", "sessile_speed"
 
 def follow(thing, folder, start, speed):
     """Makes an object show the folder's frames from the timeline's frame `start` on; `speed` 0.5 is slow motion."""
-    thing[FOLDER], thing[START], thing[SPEED] = str(folder.path), start, speed
+    thing[FOLDER], thing[START], thing[SPEED] = str(folder.path.resolve()), start, speed
 
 
 def last_frame(scene, folder, start, speed):

@@ -20,7 +20,7 @@ class Background:
 
 
 BACKGROUNDS = {
-    "studio": Background((0.34, 0.40, 0.46), (0.95, 0.97, 0.98), (0.20, 0.28, 0.38), 0.62, 1.0, 1.0),
+    "studio": Background((0.30, 0.37, 0.45), (0.97, 0.98, 0.98), (0.20, 0.29, 0.40), 0.62, 1.0, 1.0),
     "white": Background((0.75, 0.76, 0.77), (1.0, 1.0, 1.0), (0.80, 0.85, 0.90), 0.85, 0.7, 0.6),
     "dark": Background((0.004, 0.005, 0.006), (0.022, 0.026, 0.032), (0.006, 0.008, 0.010), 1.0, 1.0, 1.6),
 }
@@ -35,7 +35,7 @@ def add_stage(scene, name, view, up, centre, radius):
     ahead = ahead / np.linalg.norm(ahead) if np.linalg.norm(ahead) > 1e-6 else view.upward
     right = np.cross(ahead, up)
     # A great soft box above and behind, which liquid surfaces reflect towards the eye; a narrow one aside for edges.
-    _soft_box(scene, "key", centre, centre + radius * (1.9 * ahead - 0.7 * right + 2.4 * up), 1.7 * radius, 1.7 * radius,
+    _soft_box(scene, "key", centre, centre + radius * (1.3 * ahead - 0.7 * right + 2.8 * up), 1.8 * radius, 1.8 * radius,
               background.key * 110, (1.0, 0.965, 0.92), radius)
     _soft_box(scene, "rim", centre, centre + radius * (0.6 * ahead + 2.6 * right + 1.1 * up), 0.7 * radius, 2.0 * radius,
               background.rim * 40, (0.86, 0.93, 1.0), radius)
