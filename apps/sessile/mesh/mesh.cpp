@@ -102,6 +102,39 @@ std::vector<ResultFrame> frames_of(const Results& results, const std::string& se
   return frames;
 }
 
+/// A frame and the formats that it still needs.
+struct Due {
+  ResultFrame frame;
+  std::vector<const SurfaceFormat*> formats;
+};
+
+std::vector<Due> due_of(const SurfaceFolder& surfaces, const std::vector<ResultFrame>& frames) {
+  std::vector<Due> all;
+  for (const ResultFrame& frame : frames) {
+    Due due{frame, surfaces.missing(frame)};
+    if (!due.formats.empty()) all.push_back(std::move(due));
+  }
+  return all;
+}
+
+/// Makes surfaces until a signal asks for the end.
+Tally make(SurfaceFolder& surfaces, const std::vector<Due>& work, ProgressStyle style) {
+  Tally tally;
+  CountProgress progress(style, "frames", static_cast<std::int64_t>(work.size()));
+  for (const Due& due : work) {
+    if (stop_asked()) return tally;
+    const SurfaceMesh mesh = timed(tally.reconstruction, [&] {
+      return reconstruct(read_frame(due.frame.file), surfaces.plan().spacing, surfaces.plan().settings);
+    });
+    timed(tally.writing, [&] { surfaces.write(due.frame.number, mesh, due.formats); });
+    tally.triangles += mesh.triangle_count();
+    ++tally.made;
+    progress.update(static_cast<std::int64_t>(tally.made), fmt::format("{} triangles", mesh.triangle_count()));
+  }
+  timed(tally.writing, [&] { surfaces.finish(); });
+  return tally;
+}
+
 int mesh_folder(const MeshOptions& options) {
   const Results results = open_results(options.source);
   const std::vector<ResultFrame> frames = frames_of(results, options.frames);
@@ -112,30 +145,11 @@ int mesh_folder(const MeshOptions& options) {
   heed_signals();
   SurfaceFolder surfaces(folder, results.folder, results.scene, std::move(plan), options.again);
   surfaces.keep_only(results.frames);
-  std::vector<std::pair<ResultFrame, std::vector<const SurfaceFormat*>>> work;
-  for (const ResultFrame& frame : frames) {
-    auto missing = surfaces.missing(frame);
-    if (!missing.empty()) work.emplace_back(frame, std::move(missing));
-  }
-  Tally tally;
-  {
-    CountProgress progress(style, "frames", static_cast<std::int64_t>(work.size()));
-    for (const auto& [frame, formats] : work) {
-      if (stop_asked()) break;
-      const SurfaceMesh mesh = timed(tally.reconstruction, [&] {
-        return reconstruct(read_frame(frame.file), surfaces.plan().spacing, surfaces.plan().settings);
-      });
-      timed(tally.writing, [&] { surfaces.write(frame.number, mesh, formats); });
-      tally.triangles += mesh.triangle_count();
-      ++tally.made;
-      progress.update(static_cast<std::int64_t>(tally.made), fmt::format("{} triangles", mesh.triangle_count()));
-    }
-  }
+  const std::vector<Due> work = due_of(surfaces, frames);
+  const Tally tally = make(surfaces, work, style);
   const bool early = tally.made < work.size();
-  const std::size_t good = frames.size() - work.size();
-  if (!early) timed(tally.writing, [&] { surfaces.finish(); });
   if (early) say(stderr, fmt::format("interrupted; {} of {} frames are written\n", tally.made, work.size()));
-  if (options.progress != "json") print_end(tally, good, folder.string());
+  if (options.progress != "json") print_end(tally, frames.size() - work.size(), folder.string());
   return early ? interrupted : done;
 }
 
