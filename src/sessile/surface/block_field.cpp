@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::ptrdiff_t blocks_at_once = 16;  // handed to a thread
 
-/// Calls visit(block, blob, center) for every block and every blob that may reach it; centre and, by `to_points`, the
-/// blob's lengths are in points from the block's first.
-template <class Start, class Visit, class Finish>
+/// Calls visit(block, sums, blob, center) for every block and every blob that may reach it; the centre is in points
+/// from the block's first.
+template <class Sums, class Start, class Visit, class Finish>
 void for_each_block_and_blob(const BlockMap& map, const Blobs& blobs, const Start& start, const Visit& visit,
                              const Finish& finish) {
   const double per_point = 1 / map.cube();
@@ -21,10 +21,11 @@ void for_each_block_and_blob(const BlockMap& map, const Blobs& blobs, const Star
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::ptrdiff_t first = 0; first < count; first += blocks_at_once) {
     Grid::Cursor cursor;
+    Sums sums;
     std::array<PlaceRange, 18> ranges;
     for (auto b = static_cast<std::size_t>(first);
          b < static_cast<std::size_t>(std::min(count, first + blocks_at_once)); ++b) {
-      start(b);
+      start(b, sums);
       const BlockPlace& place = map.place(b);
       const auto corner = [](std::int64_t at) { return static_cast<double>(at * block_edge); };
       const Vec3d origin{corner(place.x), corner(place.y), corner(place.z)};
@@ -37,10 +38,10 @@ void for_each_block_and_blob(const BlockMap& map, const Blobs& blobs, const Star
           const Vec3d at = per_point * vec_cast<double>(blobs.centers[i]) - origin;
           const Vec3d reach = per_point * vec_cast<double>(blob.reach);
           if (misses(at.x, reach.x) || misses(at.y, reach.y) || misses(at.z, reach.z)) continue;
-          visit(b, i, vec_cast<float>(at));
+          visit(b, sums, i, vec_cast<float>(at));
         }
       }
-      finish(b);
+      finish(b, sums);
     }
   }
 }
@@ -67,7 +68,7 @@ void visit_rows(const Blob& blob, const Vec3<float>& center, float cube, const A
         const float dx = static_cast<float>(x) - center.x;
         q2[static_cast<std::size_t>(x)] = rest + dx * (2 * half + xx * dx);
       }
-      add(block_edge * (block_edge * z + y), q2);
+      add(static_cast<std::size_t>(block_edge * (block_edge * z + y)), q2);
     }
   }
 }
@@ -76,16 +77,16 @@ inline float greater(float a, float b) { return a > b ? a : b; }
 
 }  // namespace
 
-BlockField spline_field(const BlockMap& map, const Blobs& blobs, float threshold) {
+BlockField density_field(const BlockMap& map, const Blobs& blobs, float threshold) {
   BlockField field;
   field.blocks.resize(map.size());
   const auto cube = static_cast<float>(map.cube());
-  for_each_block_and_blob(
-      map, blobs, [&](std::size_t b) { field.blocks[b].at.fill(-threshold); },
-      [&](std::size_t b, std::size_t i, const Vec3<float>& center) {
+  for_each_block_and_blob<BlockValues>(
+      map, blobs, [&](std::size_t, BlockValues& sums) { sums.at.fill(-threshold); },
+      [&](std::size_t, BlockValues& sums, std::size_t i, const Vec3<float>& center) {
         const Blob& blob = blobs.blobs[i];
-        visit_rows(blob, center, cube, [&](int row, const std::array<float, block_edge>& q2) {
-          float* values = field.blocks[b].at.data() + row;
+        visit_rows(blob, center, cube, [&](std::size_t row, const std::array<float, block_edge>& q2) {
+          float* values = sums.at.data() + row;
           for (std::size_t x = 0; x < block_edge; ++x) {
             const float q = std::sqrt(greater(q2[x], 0));
             const float outer = greater(1 - q, 0), inner = greater(0.5f - q, 0);
@@ -93,7 +94,41 @@ BlockField spline_field(const BlockMap& map, const Blobs& blobs, float threshold
           }
         });
       },
-      [](std::size_t) {});
+      [&](std::size_t b, const BlockValues& sums) { field.blocks[b] = sums; });
+  return field;
+}
+
+BlockField mean_distance_field(const BlockMap& map, const Blobs& blobs, float radius) {
+  struct Sums {
+    BlockValues weight, x, y, z;  // of k and of k times the displacement from the centre
+  };
+  static_assert(sizeof(Sums) == 4 * sizeof(BlockValues));
+  BlockField field;
+  field.blocks.resize(map.size());
+  const auto cube = static_cast<float>(map.cube());
+  for_each_block_and_blob<Sums>(
+      map, blobs, [](std::size_t, Sums& sums) { sums = {}; },
+      [&](std::size_t, Sums& sums, std::size_t i, const Vec3<float>& center) {
+        visit_rows(blobs.blobs[i], center, cube, [&](std::size_t row, const std::array<float, block_edge>& q2) {
+          const float dy = static_cast<float>(row / block_edge % block_edge) - center.y;
+          const float dz = static_cast<float>(row / (block_edge * block_edge)) - center.z;
+          for (std::size_t x = 0; x < block_edge; ++x) {
+            const float near = greater(1 - q2[x], 0), k = near * near * near;
+            sums.weight.at[row + x] += k;
+            sums.x.at[row + x] += k * (static_cast<float>(x) - center.x);
+            sums.y.at[row + x] += k * dy;
+            sums.z.at[row + x] += k * dz;
+          }
+        });
+      },
+      [&](std::size_t b, const Sums& sums) {
+        for (std::size_t k = 0; k < block_points; ++k) {
+          const float weight = sums.weight.at[k];
+          const float distance =
+              std::sqrt(sums.x.at[k] * sums.x.at[k] + sums.y.at[k] * sums.y.at[k] + sums.z.at[k] * sums.z.at[k]);
+          field.blocks[b].at[k] = weight > 0 ? radius - distance / weight : -radius;
+        }
+      });
   return field;
 }
 

@@ -19,6 +19,10 @@ struct BlockField {
 };
 
 /// Sum of the blobs' cubic splines, less the threshold:  f = sum_j w_j (6q^3 - 6q^2 + 1 or 2(1-q)^3) - T.
-BlockField spline_field(const BlockMap& map, const Blobs& blobs, float threshold);
+BlockField density_field(const BlockMap& map, const Blobs& blobs, float threshold);
+
+/// How much nearer than `radius` the mean of the blobs' centres is, in points:  f = r - |x - sum_j k_j x_j / sum_j
+/// k_j|, k = (1 - q^2)^3.
+BlockField mean_distance_field(const BlockMap& map, const Blobs& blobs, float radius);
 
 }  // namespace sessile
