@@ -21,8 +21,8 @@ draw() {
 }
 
 run_scene tablet
-draw tablet.png "$results/tablet" --look liquid --time 0.2,0.56,6 --size 1280x400 --view 20,32
+draw tablet.png "$results/tablet" --look liquid --time 0.2,0.56,6 --size 1280x360 --view 20,32
 run_scene spill
 draw spill.png "$results/spill" --look liquid --time 2.4,6,12 --size 1280x560
-draw particles.png "$results/tablet" --time 0.2,0.56,6 --range 0,4 --size 1280x480 --view 20,32
+draw particles.png "$results/tablet" --time 0.2,0.56,6 --range 0,4 --size 1280x420 --view 20,32
 say "The pictures are in docs/; git diff shows whether they changed."

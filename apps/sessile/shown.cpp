@@ -102,8 +102,8 @@ draw::Stage stage_of(const Scene& scene) {
   stage.weightless = !(gravity > 0);
   if (gravity > 0) stage.up = -1 / gravity * scene.gravity;
   stage.solids = solid_meshes(scene);
-  // A thousandth of the run is told apart.
-  stage.time_decimals = std::clamp(3 - static_cast<int>(std::ceil(std::log10(scene.time.end))), 0, 9);
+  // A thousandth of the run is told apart, and hundredths of a second always.
+  stage.time_decimals = std::clamp(3 - static_cast<int>(std::ceil(std::log10(scene.time.end))), 2, 9);
   Box box;
   for (const SolidMesh& solid : stage.solids) {
     for (const Vec3d& p : solid.mesh.vertices) box.add(p);

@@ -75,10 +75,10 @@ Texture make_texture(int width, int height, GLenum format) {
   glBindTexture(GL_TEXTURE_2D, texture.name());
   const auto [order, type] = pixels_of(format);
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, order, type, nullptr);
-  for (const GLenum way : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+  for (const GLenum way : std::initializer_list<GLenum>{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
     glTexParameteri(GL_TEXTURE_2D, way, GL_NEAREST);
   }
-  for (const GLenum way : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+  for (const GLenum way : std::initializer_list<GLenum>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
     glTexParameteri(GL_TEXTURE_2D, way, GL_CLAMP_TO_EDGE);
   }
   return texture;

@@ -69,7 +69,7 @@ float lamp_share(vec3 seen, vec3 normal, float turned) {
   vec2 at = 0.5 + 0.5 * l.xy;
   float slant = max(0.15, dot(vec3(0.0, 0.0, 1.0) * light_turn, world_normal));
   float own = 0.5 - 0.5 * l.z - 0.5 * texel / light_reach / slant;
-  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return 1.0;
+  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))) || own >= 1.0) return 1.0;
   float nearest = 0.6 * near_by / light_reach, sum = 0.0, count = 0.0;
   float single = 1.0 / float(textureSize(shadow_map, 0).x), look = max(nearest, 4.0 * single);
   for (int k = 0; k < 10; ++k) {

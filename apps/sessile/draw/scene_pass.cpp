@@ -88,7 +88,7 @@ void main() {
 
 constexpr int color_count = 256;
 constexpr Vec3d solid_color{0.765, 0.76, 0.75};
-constexpr Vec3d ground_color{0.86, 0.87, 0.88};
+constexpr Vec3d ground_color{0.81, 0.82, 0.83};
 
 }  // namespace
 
