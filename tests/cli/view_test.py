@@ -203,7 +203,7 @@ class View(CliTest):
 
         def later():
             self.press("period")
-            return "_0.0300s" in self.still().name
+            return "_0.0200s" not in self.still().name
 
         self.until("a later frame", later)
         self.quit()
