@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From nothing to a liquid on a tablet: installs what is missing, builds a release, runs scenes/tablet.json.
+# From nothing to a liquid on a tablet: installs what is missing, builds a release, runs scenes/tablet.json, draws it.
 # Run it again at any time: it does only what is not done yet. --again runs the scene anew.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -38,4 +38,10 @@ pvd=$(find "$results" -maxdepth 2 -name '*.pvd' -print -quit)
 say "Results: $PWD/$results"
 [ -z "$pvd" ] || say "  ${pvd#"$results"/}: the frames, to open in ParaView"
 say "  stats.csv: energies, errors, spread over time    summary.json: the run in figures"
+picture=$results/picture.png
+if [ "$picture" -nt "$finished" ] || "$program" picture "$results" --look liquid -o "$picture" 2>"$logs/picture.log"; then
+  say "  ${picture#"$results"/}: the liquid at rest"
+else
+  say "  no picture: $(tail -n 1 "$logs/picture.log")"
+fi
 say "Next: $program run scenes/spill.json -o results/spill; $program --help; README.md"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing.
 #
-#   tools/setup.sh GROUP...        groups of tools/packages.txt: build, test, check, docs
+#   tools/setup.sh GROUP...        groups of tools/packages.txt: build, test, check, render, peers
 #
 # SESSILE_SETUP=skip leaves the system alone: for other systems, where the packages came another way.
 set -euo pipefail

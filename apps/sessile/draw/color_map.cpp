@@ -23,7 +23,7 @@ constexpr std::array<Stop, 6> stops{{{0.420, 0.150, 268},
                                      {0.626, 0.103, 216},
                                      {0.729, 0.118, 168},
                                      {0.832, 0.155, 128},
-                                     {0.935, 0.165, 103}}};
+                                     {0.935, 0.155, 106}}};
 
 /// Between the stops by Catmull and Rom's cubic; `place` from 0 to 1.
 OkLab between_stops(double place) {

@@ -30,25 +30,27 @@ void main() {
 // Softens steps along edges: looks how brightness changes around a pixel, and averages along the edge (after
 // T. Lottes's FXAA of 2009, its console variant in outline).
 constexpr std::string_view soften_fragment = R"(
-vec3 light_at(ivec2 at) { return stored(texelFetch(light_map, clamp(at, ivec2(0), textureSize(light_map, 0) - 1), 0).rgb); }
-float bright(vec3 c) { return dot(c, vec3(0.299, 0.587, 0.114)); }
+vec3 light_at(ivec2 at) {
+  return clamp(texelFetch(light_map, clamp(at, ivec2(0), textureSize(light_map, 0) - 1), 0).rgb, 0.0, 1.0);
+}
+vec3 light_near(vec2 there) { return clamp(textureLod(light_map, there, 0.0).rgb, 0.0, 1.0); }
+float bright(vec3 light) { return sqrt(dot(light, vec3(0.299, 0.587, 0.114))); }
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec3 here = light_at(at);
   float a = bright(light_at(at + ivec2(-1, 1))), b = bright(light_at(at + ivec2(1, 1)));
   float c = bright(light_at(at + ivec2(-1, -1))), d = bright(light_at(at + ivec2(1, -1))), own = bright(here);
   float least = min(own, min(min(a, b), min(c, d))), most = max(own, max(max(a, b), max(c, d)));
-  color = vec4(here, 1.0);
-  if (most - least < max(0.04, 0.12 * most)) return;
-  vec2 along = vec2(c + d - a - b, a + c - b - d);
-  float steep = min(abs(along.x), abs(along.y)) + max(0.03 * (a + b + c + d), 0.008);
-  along = clamp(along / steep, -6.0, 6.0) / vec2(textureSize(light_map, 0));
-  vec3 close = 0.5 * (stored(textureLod(light_map, place - along / 6.0, 0.0).rgb) +
-                      stored(textureLod(light_map, place + along / 6.0, 0.0).rgb));
-  vec3 wide = 0.5 * close + 0.25 * (stored(textureLod(light_map, place - 0.5 * along, 0.0).rgb) +
-                                    stored(textureLod(light_map, place + 0.5 * along, 0.0).rgb));
-  float w = bright(wide);
-  color.rgb = w < least || w > most ? close : wide;
+  if (most - least >= max(0.04, 0.12 * most)) {
+    vec2 along = vec2(c + d - a - b, a + c - b - d);
+    float steep = min(abs(along.x), abs(along.y)) + max(0.03 * (a + b + c + d), 0.008);
+    along = clamp(along / steep, -6.0, 6.0) / vec2(textureSize(light_map, 0));
+    vec3 close = 0.5 * (light_near(place - along / 6.0) + light_near(place + along / 6.0));
+    vec3 wide = 0.5 * close + 0.25 * (light_near(place - 0.5 * along) + light_near(place + 0.5 * along));
+    float w = bright(wide);
+    here = w < least || w > most ? close : wide;
+  }
+  color = vec4(stored(here), 1.0);
 }
 )";
 

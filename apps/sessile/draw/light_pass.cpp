@@ -71,14 +71,14 @@ float lamp_share(vec3 seen, vec3 normal, float turned) {
   float own = 0.5 - 0.5 * l.z - 0.5 * texel / light_reach / slant;
   if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return 1.0;
   float nearest = 0.6 * near_by / light_reach, sum = 0.0, count = 0.0;
-  float look = max(nearest, 4.0 / 2048.0);
+  float single = 1.0 / float(textureSize(shadow_map, 0).x), look = max(nearest, 4.0 * single);
   for (int k = 0; k < 10; ++k) {
     float angle = turned + golden * float(k);
     float caster = textureLod(shadow_map, at + look * sqrt((float(k) + 0.5) / 10.0) * vec2(cos(angle), sin(angle)), 0.0).r;
     if (caster < own) { sum += caster; count += 1.0; }
   }
   if (count == 0.0) return 1.0;
-  float soft = clamp(0.16 * (own - sum / count), 1.0 / 2048.0, 3.0 * look);
+  float soft = clamp(0.16 * (own - sum / count), single, 3.0 * look);
   float lit = 0.0;
   for (int k = 0; k < 14; ++k) {
     float share = sqrt((float(k) + 0.5) / 14.0), angle = turned + golden * float(k);

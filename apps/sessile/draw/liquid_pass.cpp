@@ -19,11 +19,11 @@ constexpr int smooth_rounds = 2;
 
 namespace shaders = liquid_shaders;
 
-LiquidPass::Targets::Targets(int width, int height, int fineness)
-    : front(width * fineness, height * fineness, {GL_R32F, GL_RGB10_A2}, true),
-      other(width * fineness, height * fineness, {GL_R32F}),
-      thickness(width, height, {GL_R32F}),
-      lit(width * fineness, height * fineness, {GL_RGBA16F}) {
+LiquidPass::Targets::Targets(int width, int height)
+    : front(width, height, {GL_R32F, GL_RGB10_A2}, true),
+      other(width, height, {GL_R32F}),
+      thickness((width + 1) / 2, (height + 1) / 2, {GL_R32F}),
+      lit(width, height, {GL_RGBA16F}) {
   gl::filter_smoothly(lit.color());
   gl::filter_smoothly(thickness.color());
 }
@@ -39,13 +39,10 @@ LiquidPass::LiquidPass()
       compose_("liquid", {glsl_lens, glsl_surroundings}, glsl_whole_picture, shaders::compose) {}
 
 void LiquidPass::make_room(const LiquidView& view) {
-  const int fine_width = view.scene->width();
-  if (targets_ && targets_->thickness.width() == view.width && targets_->thickness.height() == view.height &&
-      targets_->front.width() == fine_width) {
-    return;
-  }
+  const int width = view.scene->width(), height = view.scene->height();
+  if (targets_ && targets_->front.width() == width && targets_->front.height() == height) return;
   targets_.reset();
-  targets_.emplace(view.width, view.height, fine_width / view.width);
+  targets_.emplace(width, height);
 }
 
 void LiquidPass::start_layer(const gl::Target& target, bool adds) const {

@@ -16,7 +16,6 @@ struct LiquidView {
   std::optional<ClippingPlane> clip;
   const gl::Target* scene = nullptr;  ///< ScenePass's: what hides liquid, and is seen through it
   GLuint lit = 0;                     ///< the same, lit
-  int width = 0, height = 0;          ///< of the picture [pixels]
 };
 
 /// Draws liquid in screen space (van der Laan et al. 2009): a depth of spheres or triangles, evened out, a thickness,
@@ -45,7 +44,7 @@ class LiquidPass {
     gl::Target other;      // a distance, while it is evened out
     gl::Target thickness;  // in spacings
     gl::Target lit;
-    Targets(int width, int height, int fineness);
+    Targets(int width, int height);
   };
   std::optional<Targets> targets_;
 };

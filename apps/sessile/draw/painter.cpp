@@ -13,8 +13,8 @@
 namespace sessile::draw {
 namespace {
 
-constexpr int shadow_pixels = 2048;
-constexpr double ground_reach = 5;  // over the stage's own
+constexpr int shadow_pixels = 1024;  // along an axis, times the fineness, and no more than four times
+constexpr double ground_reach = 5;   // over the stage's own
 
 struct Box {
   Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
@@ -94,26 +94,23 @@ struct Painter::Impl {
   LightPass light_pass;
   LiquidPass liquid_pass;
   FinishPass finish_pass;
-  gl::Target shadow_map{shadow_pixels, shadow_pixels, {}, true};
 
-  /// What is as large as the picture.
+  /// What depends on the picture's size, in fine pixels; what is smooth has half as many along each axis.
   struct Targets {
-    gl::Target scene, rough, other_rough, lit;
+    gl::Target shadow_map, scene, rough, other_rough, lit;
     Targets(int width, int height, int fineness)
-        : scene(width * fineness, height * fineness, {GL_RGBA8, GL_RGB10_A2}, true),
-          rough(width, height, {GL_RG8}),
-          other_rough(width, height, {GL_RG8}),
-          lit(width * fineness, height * fineness, {GL_RGBA16F}) {
+        : shadow_map(shadow_pixels * std::min(fineness, 4), shadow_pixels * std::min(fineness, 4), {}, true),
+          scene(width, height, {GL_RGBA8, GL_RGB10_A2}, true),
+          rough((width + 1) / 2, (height + 1) / 2, {GL_RG8}),
+          other_rough((width + 1) / 2, (height + 1) / 2, {GL_RG8}),
+          lit(width, height, {GL_RGBA16F}) {
       gl::filter_smoothly(lit.color());
     }
   };
   std::optional<Targets> targets;
 
   void make_room(int width, int height, int fineness) {
-    if (targets && targets->rough.width() == width && targets->rough.height() == height &&
-        targets->scene.width() == width * fineness) {
-      return;
-    }
+    if (targets && targets->scene.width() == width && targets->scene.height() == height) return;
     targets.reset();
     targets.emplace(width, height, fineness);
   }
@@ -144,7 +141,7 @@ struct Painter::Impl {
     Light light;
     light.lens = lens_of_light(stage.up + 0.55 * camera.right() + 0.10 * towards_eye, moment_box.centre(),
                                moment_box.reach() + stage.spacing);
-    light.shadows = shadow_map.depth();
+    light.shadows = targets->shadow_map.depth();
     light.up = stage.up;
     light.spacing = stage.spacing;
     return light;
@@ -156,11 +153,12 @@ struct Painter::Impl {
     if (liquid(appearance)) view.radius = 0.8 * stage.spacing;  // no light between particles
     view.spheres = appearance.look != Look::surface;
     view.skin = appearance.look == Look::surface;
-    scene_pass.draw(shadow_map, view, spheres, solids, skin);
+    scene_pass.draw(targets->shadow_map, view, spheres, solids, skin);
   }
 
   void paint(const Camera& camera, const Appearance& appearance, int width, int height, unsigned framebuffer) {
-    make_room(width, height, std::max(1, appearance.fineness));
+    const int fineness = std::max(1, appearance.fineness);
+    make_room(width * fineness, height * fineness, fineness);
     const double aspect = static_cast<double>(width) / height;
     const double reach =
         std::max(moment_box.reach(), view_of({}, appearance).ground ? ground_reach * stage_box.reach() : 0);
@@ -178,7 +176,7 @@ struct Painter::Impl {
     light_pass.draw(targets->scene, targets->rough, targets->other_rough, targets->lit, lens, light);
     GLuint light_map = targets->lit.color();
     if (liquid(appearance)) light_map = add_liquid(lens, light, appearance);
-    finish_pass.draw(light_map, std::max(1, appearance.fineness), width, height, framebuffer);
+    finish_pass.draw(light_map, fineness, width, height, framebuffer);
   }
 
   GLuint add_liquid(const Lens& lens, const Light& light, const Appearance& appearance) {
@@ -189,8 +187,6 @@ struct Painter::Impl {
     view.clip = appearance.clip;
     view.scene = &targets->scene;
     view.lit = targets->lit.color();
-    view.width = targets->rough.width();
-    view.height = targets->rough.height();
     return appearance.look == Look::surface ? liquid_pass.draw(view, skin) : liquid_pass.draw(view, spheres);
   }
 };
