@@ -70,8 +70,8 @@ int main(int argc, char** argv) {
     return app::run_failed;
   }
   // What the other commands print is all they are for; these have their files.
-  const bool has_files = program.got_subcommand("run") || program.got_subcommand("compare") ||
-                         program.got_subcommand("mesh");
+  const bool has_files =
+      program.got_subcommand("run") || program.got_subcommand("compare") || program.got_subcommand("mesh");
   if (!has_files && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
     app::say(stderr, "sessile: cannot write to standard output\n");
     return app::run_failed;

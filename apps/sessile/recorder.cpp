@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <exception>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "sessile/core/error.h"
+#include "sessile/measure/diagnostics.h"
 #include "sessile/output/file.h"
 #include "sessile/output/frames.h"
 #include "sessile/output/snapshot.h"
@@ -33,10 +35,13 @@ bool is_result(std::string name) {
   return known && (name.starts_with("frame_") || name.starts_with("solids."));
 }
 
+bool asks_for_area(const Scene& scene) { return scene.output.surface && scene.output.surface->stats; }
+
 /// Makes the folder, and takes out the results of an earlier run into it: left beside fewer new ones they would pass
 /// for theirs. stats.csv is begun anew in any case.
 const std::filesystem::path& prepared(const std::filesystem::path& folder) {
   create_output_folder(folder);
+  remove_surfaces(folder / surface_folder_name);
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (is_result(entry.path().filename().string())) old.push_back(entry.path());
@@ -55,9 +60,11 @@ const std::filesystem::path& prepared(const std::filesystem::path& folder) {
 Recorder::Recorder(const std::filesystem::path& folder, const Simulation& simulation)
     : folder_(prepared(folder)),
       frames_(folder, simulation.scene().output.formats),
-      stats_(folder / "stats.csv", simulation.walls().labels),
-      frame_interval_(simulation.scene().output.frame_interval),
-      stats_interval_(simulation.scene().output.stats_interval.value_or(0.1 * frame_interval_)) {
+      stats_(folder / "stats.csv", simulation.walls().labels, asks_for_area(simulation.scene())),
+      surfaces_(folder, simulation.scene()),
+      frame_schedule_(simulation.scene().output.frame_interval),
+      stats_schedule_(
+          simulation.scene().output.stats_interval.value_or(0.1 * simulation.scene().output.frame_interval)) {
   // At the start already, so that the results of a run that goes on, or was killed, can be opened.
   write_whole(folder_ / "scene.json", to_json(simulation.scene()));
   output_seconds_ += seconds_of([&] { frames_.write_solids(take_solids(simulation.walls())); });
@@ -65,58 +72,60 @@ Recorder::Recorder(const std::filesystem::path& folder, const Simulation& simula
 }
 
 void Recorder::record(const Simulation& simulation) {
-  // A hair of an interval forgives the rounding of many added steps.
-  const double time = simulation.time();
-  if (time >= (static_cast<double>(frames_due_) - 1e-6) * frame_interval_) {
-    write_frame(simulation);
-    frames_due_ = static_cast<std::int64_t>(time / frame_interval_ + 1e-6) + 1;
-  }
-  if (stats_interval_ == 0 || time >= (static_cast<double>(stats_due_) - 1e-6) * stats_interval_) {
-    write_stats(simulation);
-    if (stats_interval_ > 0) stats_due_ = static_cast<std::int64_t>(time / stats_interval_ + 1e-6) + 1;
-  }
+  if (frame_schedule_.due(simulation.time())) write_frame(simulation);
+  output_seconds_ += seconds_of([&] { surfaces_.record(simulation); });
+  if (stats_schedule_.due(simulation.time())) write_stats(simulation);
 }
 
 void Recorder::write_frame(const Simulation& simulation) {
+  frame_schedule_.done(simulation.time());
   if (simulation.scene().output.formats.empty()) return;
-  frame_time_ = simulation.time();
   output_seconds_ += seconds_of([&] { frames_.push(take_snapshot(simulation, simulation.scene().output.columns)); });
 }
 
 void Recorder::write_stats(const Simulation& simulation) {
-  stats_time_ = simulation.time();
+  stats_schedule_.done(simulation.time());
   Diagnostics measured;
-  measure_seconds_ += seconds_of([&] { measured = measure(simulation); });
-  output_seconds_ += seconds_of([&] { stats_.write(simulation, measured); });
+  std::optional<SurfaceMeasures> surface;
+  measure_seconds_ += seconds_of([&] {
+    measured = measure(simulation);
+    surface = surfaces_.measure(simulation);
+  });
+  output_seconds_ += seconds_of([&] { stats_.write(simulation, measured, surface); });
 }
 
 void Recorder::finish(const Simulation& simulation, RunFacts facts) {
   const auto start = std::chrono::steady_clock::now();
   if (facts.status != RunStatus::failed) {
-    if (frame_time_ < simulation.time()) write_frame(simulation);
-    if (stats_time_ < simulation.time()) write_stats(simulation);
+    if (!frame_schedule_.is_done(simulation.time())) write_frame(simulation);
+    if (!stats_schedule_.is_done(simulation.time())) write_stats(simulation);
   }
-  std::exception_ptr close_error;
-  try {
-    output_seconds_ += seconds_of([&] { frames_.close(); });
-  } catch (const FileError& e) {
-    // The summary may still find room, and should say how the run ended.
-    close_error = std::current_exception();
-    facts.status = RunStatus::failed;
-    if (facts.message.empty()) facts.message = e.what();
-  }
+  const bool failed = facts.status == RunStatus::failed;
+  std::exception_ptr first_error;
+  const auto attempt = [&](auto&& last_work) {
+    try {
+      output_seconds_ += seconds_of(last_work);
+    } catch (const Error& e) {
+      // The summary may still find room, and should say how the run ended.
+      if (!first_error) first_error = std::current_exception();
+      facts.status = RunStatus::failed;
+      if (facts.message.empty()) facts.message = e.what();
+    }
+  };
+  attempt([&] { surfaces_.finish(simulation, failed); });
+  attempt([&] { frames_.close(); });
   facts.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   facts.output_time = output_seconds_;
   facts.measures_time = measure_seconds_;
   facts.writer_time = frames_.seconds();
   facts.frames = frames_.frames_written();
-  if (close_error) {
+  if (first_error) {
     try {
       write_summary(folder_ / "summary.json", facts, simulation_facts(simulation));
     } catch (const FileError&) {
       // The first error is the one to report.
     }
-    std::rethrow_exception(close_error);
+    std::rethrow_exception(first_error);
   }
   write_summary(folder_ / "summary.json", facts, simulation_facts(simulation));
 }

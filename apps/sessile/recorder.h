@@ -2,7 +2,8 @@
 
 #include <filesystem>
 
-#include "sessile/measure/diagnostics.h"
+#include "mesh/surface_recorder.h"
+#include "schedule.h"
 #include "sessile/output/stats.h"
 #include "sessile/output/summary.h"
 #include "sessile/output/writer.h"
@@ -10,8 +11,8 @@
 
 namespace sessile::app {
 
-/// Writes what a scene's output block asks for while a simulation runs: frames, stats.csv, and summary.json at the end.
-/// A frame or line falls due with the first state at or after its time, and carries that state's own time.
+/// Writes what a scene's output block asks for while a simulation runs: frames, surfaces, stats.csv, and summary.json
+/// at the end. A frame or line falls due with the first state at or after its time, and carries that state's own time.
 class Recorder {
  public:
   /// Makes the folder, writes the solids and the state at the start. Throws FileError.
@@ -32,9 +33,8 @@ class Recorder {
   std::filesystem::path folder_;
   FrameWriter frames_;
   StatsWriter stats_;
-  double frame_interval_, stats_interval_;
-  double frame_time_ = -1, stats_time_ = -1;     // of the last written state
-  std::int64_t frames_due_ = 0, stats_due_ = 0;  // how many intervals have been served
+  SurfaceRecorder surfaces_;
+  Schedule frame_schedule_, stats_schedule_;
   double output_seconds_ = 0, measure_seconds_ = 0;
 };
 

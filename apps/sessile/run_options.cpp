@@ -10,12 +10,14 @@
 
 namespace sessile::app {
 
-std::string finite_and_positive(const std::string& word) {
+std::string finite_and_positive(const std::string& word) { return finite_and_positive_in("s", word); }
+
+std::string finite_and_positive_in(std::string_view unit, const std::string& word) {
   double value = 0;
   const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc::invalid_argument || rest != word.data() + word.size()) return {};  // no number: CLI11 says so
   if (error != std::errc{} || !std::isfinite(value)) return word + " is not a finite number";
-  return value > 0 ? "" : "must be above 0 s, found " + word;
+  return value > 0 ? "" : fmt::format("must be above 0 {}, found {}", unit, word);
 }
 
 void add_run_options(CLI::App& command, RunOptions& options, const std::string& folder_help) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sessile::app {
@@ -25,5 +26,8 @@ void apply_run_options(RunOptions& options, const std::string& folder_suffix);
 
 /// Says of a number that a user typed what the range check of a scene would say under another name; else "".
 std::string finite_and_positive(const std::string& word);
+
+/// The same of a number in another unit than seconds.
+std::string finite_and_positive_in(std::string_view unit, const std::string& word);
 
 }  // namespace sessile::app

@@ -3,7 +3,7 @@ import re
 
 from sessile_cli import VERSION, CliTest, tiny, unittest
 
-COMMANDS = ("run", "compare", "bench", "check", "info", "models")
+COMMANDS = ("run", "mesh", "compare", "bench", "check", "info", "models")
 
 
 class Help(CliTest):
@@ -16,6 +16,8 @@ class Help(CliTest):
 
     def test_every_command(self):
         options = {"run": ["SCENE", "--output DIR", "--set PATH=VALUE", "--until SECONDS", "--threads N", "--progress"],
+                   "mesh": ["DIR|FRAME", "--output DIR", "--format NAME", "--set PATH=VALUE", "--frames LIST",
+                            "--spacing METRES", "--again", "--threads N", "--progress"],
                    "compare": ["SCENE", "--methods LIST", "--output DIR", "--set PATH=VALUE", "--until SECONDS",
                                "--threads N", "--progress", "--search-dt", "--search-until SECONDS",
                                "--search-max SECONDS"],
@@ -48,7 +50,7 @@ class WrongUsage(CliTest):
         self.expect([], "A subcommand is required")
         self.expect(["--threads", "1"], "A subcommand is required")
         self.expect(["rnu", "s.json"], 'unknown command "rnu" (did you mean "run"?)')
-        self.expect(["simulate"], 'unknown command "simulate" (valid commands: run, compare, bench, check, info, models)')
+        self.expect(["simulate"], f'unknown command "simulate" (valid commands: {", ".join(COMMANDS)})')
 
     def test_options(self):
         scene = self.write(tiny())

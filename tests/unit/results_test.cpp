@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, ReadFrame, testing::Values("vtp", "ply"),
                          [](const auto& each) { return std::string(each.param); });
 
 TEST_P(ReadFrame, BringsBackEveryBit) {
-  for (const std::size_t n : {0, 1, 5, 70000}) {
+  for (const std::size_t n : {0U, 1U, 5U, 70000U}) {
     const Snapshot before = sample(n), after = read(encoded(before, GetParam()));
     EXPECT_EQ(after.time, 0.1);
     EXPECT_EQ(after.step, 42);

@@ -67,7 +67,13 @@ Scene rich(const std::string& mesh) {
                 Emitter{"f", Rectangle{1, 2}, {}, {}, {}, 0.5, 1, 7, 3, 0.9}};
   s.domain = Domain{{-9, -9, -9}, {9, 9, 9}, Edge::closed, Edge::periodic, Edge::open};
   s.solids = {Solid{"p", Plate{1, 2}, {}, 0.2, 2, 0.5, 0.0}, Solid{"q", Container{{1, 2, 3}}, {}, {}, 1, 1, {}}};
-  s.output = {0.02, 0.0, {"ply"}, {"id", "normal"}};
+  SurfaceOutput surface;
+  surface.method = DensityField{2.5, 1.0 / 3};
+  surface.cube_size = 0.1 + 0.2;
+  surface.formats = {"vdb", "usda"};
+  surface.interval = 0.7;
+  surface.stats = true;
+  s.output = {0.02, 0.0, {"ply"}, {"id", "normal"}, surface};
   return s;
 }
 
@@ -153,6 +159,26 @@ TEST(SceneFilesOfTheProject, AreSound) {
   EXPECT_GE(methods, 3);
 }
 
+TEST(SurfaceSettings, TakeOverridesAsScenesDo) {
+  SurfaceSettings before;
+  before.method = DensityField{3, 0.4};
+  before.cube_size = 1;
+  const auto after = with_overrides(before, std::vector<std::string>{"method.threshold=0.5", "cube_size=2"});
+  EXPECT_EQ(after.cube_size, 2);
+  EXPECT_EQ(std::get<DensityField>(after.method).threshold, 0.5);
+  EXPECT_EQ(std::get<DensityField>(after.method).smoothing_length, 3) << "what is not overridden stays";
+  EXPECT_EQ(with_overrides(before, {}).cube_size, 1);
+  try {
+    with_overrides(before, std::vector<std::string>{"cube_sze=1", "method.type=densty", "cube_size=0"});
+    FAIL();
+  } catch (const SceneError& e) {
+    EXPECT_EQ(e.messages, (std::vector<std::string>{"--set cube_sze: unknown key (did you mean \"cube_size\"?)",
+                                                    "--set method.type: unknown type \"densty\" (did you mean "
+                                                    "\"density\"?)",
+                                                    "--set cube_size: must be above 0, found 0"}));
+  }
+}
+
 TEST(SceneReference, IsUpToDate) {
   // To bring it up to date: run this program with SESSILE_WRITE_DOCS set.
   const std::filesystem::path file = SESSILE_SOURCE_DIR "/docs/scenes.md";
@@ -162,7 +188,7 @@ TEST(SceneReference, IsUpToDate) {
 
 TEST(SceneReference, KnowsEveryGroup) {
   const auto groups = scene_reference();
-  EXPECT_EQ(groups.size(), 27U);
+  EXPECT_EQ(groups.size(), 28U + std::variant_size_v<SurfaceMethod>);
   EXPECT_TRUE(has(models_text(), "  iisph: "));
   EXPECT_TRUE(has(models_text(), "  container: "));
   EXPECT_TRUE(has(scene_reference_markdown(), "## Type `box`"));

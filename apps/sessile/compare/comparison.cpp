@@ -31,7 +31,8 @@ std::string run_json(const RunRecord& run, const std::string& step, const std::s
       courses.raw("time_to_rest_s", "null");
     }
     for (std::size_t i = 0; i < quantities.size(); ++i) {
-      const Course& course = outcome->courses[i];
+      if (!outcome->courses[i]) continue;
+      const Course& course = *outcome->courses[i];
       courses.raw(quantities[i].key, fmt::format("{{\"final\": {}, \"least\": {}, \"greatest\": {}, \"unit\": \"{}\"}}",
                                                  json_number(course.final), json_number(course.least),
                                                  json_number(course.greatest), quantities[i].unit));
@@ -163,8 +164,8 @@ std::string comparison_csv(const Comparison& comparison) {
     const Outcome& outcome = *row.outcome;
     text += fmt::format(",{},{},{}", row.run->wall_per_second(), factor_to_first(comparison, *row.run),
                         outcome.time_to_rest ? fmt::format("{}", *outcome.time_to_rest) : "");
-    for (const Course& course : outcome.courses) {
-      text += outcome.known ? fmt::format(",{},{},{}", course.final, course.least, course.greatest) : ",,,";
+    for (const auto& course : outcome.courses) {
+      text += course ? fmt::format(",{},{},{}", course->final, course->least, course->greatest) : ",,,";
     }
     text += '\n';
   }

@@ -179,11 +179,15 @@ std::string outcome_table(const Comparison& comparison) {
     if (!q.unit.empty()) title += fmt::format(" [{}]", q.unit);
     if (q.least) title += ", least";
     line = {title};
+    bool any = false;
     for (const Row& row : rows) {
-      const Course& course = row.outcome->courses[i];
-      line.push_back(fmt::format("{} ({})", number(course.final), number(q.least ? course.least : course.greatest)));
+      const auto& course = row.outcome->courses[i];
+      any = any || course;
+      line.push_back(
+          course ? fmt::format("{} ({})", number(course->final), number(q.least ? course->least : course->greatest))
+                 : "");
     }
-    text += table_line(line);
+    if (any) text += table_line(line);
   }
   return text + "\n";
 }
@@ -217,6 +221,8 @@ std::string plots_section(const Comparison& comparison) {
   std::string text = "## Over simulated time\n\n";
   if (!comparison.plots_trouble.empty()) return text + fmt::format("{}.\n", comparison.plots_trouble);
   for (const Plot& plot : plots) {
+    // Not every scene asks for every column.
+    if (!std::filesystem::exists(comparison.folder / "plots" / (std::string(plot.key) + ".png"))) continue;
     text += fmt::format("![{0}](plots/{1}.png)\n\n[{0} as SVG](plots/{1}.svg)\n\n", plot.title, plot.key);
   }
   return text + "`plots/comparison.gp` draws them; change it and run `gnuplot comparison.gp` there.\n";

@@ -68,7 +68,7 @@ Outcome outcome_of(const StatsTable& stats) {
     const std::vector<double>& values = stats.column(std::string(quantities[i].column));
     if (values.empty()) continue;
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    outcome.courses[i] = {values.back(), *least, *greatest};
+    outcome.courses[i] = Course{values.back(), *least, *greatest};
   }
   return outcome;
 }

@@ -33,7 +33,7 @@ struct Quantity {
 };
 
 /// Every quantity of the table of outcomes.
-inline constexpr std::array<Quantity, 12> quantities{{
+inline constexpr std::array<Quantity, 14> quantities{{
     {"kinetic_energy", "kinetic energy", "kinetic_energy [J]", "J"},
     {"max_speed", "greatest speed", "max_speed [m/s]", "m/s"},
     {"particles", "particles", "particles", ""},
@@ -46,6 +46,8 @@ inline constexpr std::array<Quantity, 12> quantities{{
     {"radius_of_gyration", "radius of gyration", "radius_of_gyration [m]", "m"},
     {"out", "out of the domain", "out", ""},
     {"lost", "lost through solids", "lost", ""},
+    {"surface_area", "surface area", "surface_area [m^2]", "m^2"},
+    {"surface_volume", "volume in the surface", "surface_volume [m^3]", "m^3", true},
 }};
 
 /// How a quantity went.
@@ -57,7 +59,7 @@ struct Course {
 struct Outcome {
   bool known = false;                  ///< whether there were any lines
   std::optional<double> time_to_rest;  ///< after which the kinetic energy stays below 1e-4 of its peak [s]
-  std::array<Course, quantities.size()> courses{};
+  std::array<std::optional<Course>, quantities.size()> courses{};  ///< nothing where stats.csv has no such column
 };
 
 /// The first time from which on the energy is at most a share of its peak; nothing when the last one is above.

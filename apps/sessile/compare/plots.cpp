@@ -29,6 +29,12 @@ std::string literal(std::string_view text) {
 /// Earlier lines are wider, so that they show beneath later ones that run along them.
 double width(std::size_t i) { return std::max(1.6, 3.6 - 0.3 * static_cast<double>(i)); }
 
+/// Whether any method has the column at all: some are there only where a scene asks for them.
+bool any_values(const std::vector<StatsTable>& tables, const Plot& plot) {
+  return std::any_of(tables.begin(), tables.end(),
+                     [&](const StatsTable& table) { return !table.column(std::string(plot.column)).empty(); });
+}
+
 /// Whether any method has a value that a logarithmic axis can show.
 bool any_positive(const std::vector<StatsTable>& tables, const Plot& plot) {
   return std::any_of(tables.begin(), tables.end(), [&](const StatsTable& table) {
@@ -65,6 +71,7 @@ std::string plot_script(const fs::path& folder, const std::vector<std::string>& 
                           colours[i % colours.size()], 1 + i / colours.size(), width(i));
   }
   for (const Plot& plot : plots) {
+    if (!any_values(tables, plot)) continue;
     script += '\n';
     script += axis(plot, plot.logarithmic && any_positive(tables, plot));
     std::string lines;

@@ -19,10 +19,11 @@ struct Plot {
   bool of_steps = false;   ///< whether the line of the start, before any step, has no value
 };
 
-inline constexpr std::array<Plot, 13> plots{{
+inline constexpr std::array<Plot, 14> plots{{
     {"kinetic_energy", "Kinetic energy", "kinetic_energy [J]", "kinetic energy [J]", true},
     {"loose", "Loose particles", "loose", "particles", false, true},
     {"wetted_area", "Wetted area", "wetted_area [m^2]", "area [m^2]", false, true},
+    {"surface_area", "Area of the surface", "surface_area [m^2]", "area [m^2]", false, true},
     {"pieces", "Pieces", "pieces", "pieces", false, true},
     {"nearest_p5", "Clustering: distance to the nearest particle, 5th percentile", "nearest_p5 [dx]", "distance [dx]",
      false, true},

@@ -82,6 +82,7 @@ class Search {
     resolved.scene.time.fixed_dt = trial.dt;
     if (!whole) resolved.scene.time.end = settings_.search_until;
     resolved.scene.output.formats.clear();
+    if (resolved.scene.output.surface) resolved.scene.output.surface->formats.clear();
     const std::string label =
         fmt::format("{}, dt {} s{}", contestant_.name, trial.dt, whole && short_ones ? " to the end" : "");
     trial.record = run_or_reuse(resolved, settings_, trial.folder, label, true);

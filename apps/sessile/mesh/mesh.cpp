@@ -71,57 +71,85 @@ auto timed(double& seconds, F&& f) {
 
 SurfacePlan plan_of(const Scene& scene, const MeshOptions& options) {
   SurfacePlan plan;
-  plan.settings = with_overrides(plan.settings, options.overrides);
+  const SurfaceOutput asked = scene.output.surface.value_or(SurfaceOutput{});
+  plan.settings = with_overrides(asked, options.overrides);
+  if (!asked.formats.empty()) plan.formats = asked.formats;
   if (!options.formats.empty()) plan.formats = options.formats;
   plan.spacing = options.spacing.value_or(scene.spacing);
   plan.frames_per_second = 1 / scene.output.frame_interval;
   return plan;
 }
 
-void print_end(const Tally& tally, std::size_t frames, const std::string& place) {
-  const auto n = static_cast<double>(std::max<std::size_t>(tally.made, 1));
-  std::string text = fmt::format("{} frames", tally.made);
-  if (tally.made < frames) text = fmt::format("{} of {} frames, the others were up to date", tally.made, frames);
-  say(stdout, fmt::format("{}; {} triangles; a frame takes {:.3f} s to reconstruct, {:.3f} s to write\n"
-                          "surfaces and surface.json are in {}\n",
-                          text, tally.triangles, tally.reconstruction / n, tally.writing / n, place));
+/// `good`: frames that were up to date already.
+void print_end(const Tally& tally, std::size_t good, const std::string& place) {
+  std::string text = fmt::format("{} frames were up to date already\n", good);
+  if (tally.made > 0) {
+    const auto n = static_cast<double>(tally.made);
+    text = fmt::format("{} frames, {} triangles; a frame took {:.3f} s to reconstruct, {:.3f} s to write\n", tally.made,
+                       tally.triangles, tally.reconstruction / n, tally.writing / n);
+    if (good > 0) text += fmt::format("{} frames were up to date already\n", good);
+  }
+  say(stdout, fmt::format("{}surfaces and surface.json are in {}\n", text, place));
+}
+
+std::vector<ResultFrame> frames_of(const Results& results, const std::string& selection) {
+  std::vector<ResultFrame> frames;
+  try {
+    for (const std::size_t place : selected(selection, results.frames.size())) frames.push_back(results.frames[place]);
+  } catch (const Error& e) {
+    throw CLI::ValidationError("--frames", e.what());
+  }
+  return frames;
+}
+
+/// A frame and the formats that it still needs.
+struct Due {
+  ResultFrame frame;
+  std::vector<const SurfaceFormat*> formats;
+};
+
+std::vector<Due> due_of(const SurfaceFolder& surfaces, const std::vector<ResultFrame>& frames) {
+  std::vector<Due> all;
+  for (const ResultFrame& frame : frames) {
+    Due due{frame, surfaces.missing(frame)};
+    if (!due.formats.empty()) all.push_back(std::move(due));
+  }
+  return all;
+}
+
+/// Makes surfaces until a signal asks for the end.
+Tally make(SurfaceFolder& surfaces, const std::vector<Due>& work, ProgressStyle style) {
+  Tally tally;
+  CountProgress progress(style, "frames", static_cast<std::int64_t>(work.size()));
+  for (const Due& due : work) {
+    if (stop_asked()) return tally;
+    const SurfaceMesh mesh = timed(tally.reconstruction, [&] {
+      return reconstruct(read_frame(due.frame.file), surfaces.plan().spacing, surfaces.plan().settings);
+    });
+    timed(tally.writing, [&] { surfaces.write(due.frame.number, mesh, due.formats); });
+    tally.triangles += mesh.triangle_count();
+    ++tally.made;
+    progress.update(static_cast<std::int64_t>(tally.made), fmt::format("{} triangles", mesh.triangle_count()));
+  }
+  timed(tally.writing, [&] { surfaces.finish(); });
+  return tally;
 }
 
 int mesh_folder(const MeshOptions& options) {
   const Results results = open_results(options.source);
-  std::vector<ResultFrame> frames;
-  for (const std::size_t place : selected(options.frames, results.frames.size()))
-    frames.push_back(results.frames[place]);
-  const fs::path folder = options.folder.empty() ? results.folder / "surface" : fs::path(options.folder);
+  const std::vector<ResultFrame> frames = frames_of(results, options.frames);
+  const fs::path folder = options.folder.empty() ? results.folder / surface_folder_name : fs::path(options.folder);
   SurfacePlan plan = plan_of(results.scene, options);
   const ProgressStyle style = progress_style(options.progress);
 
   heed_signals();
   SurfaceFolder surfaces(folder, results.folder, results.scene, std::move(plan), options.again);
   surfaces.keep_only(results.frames);
-  std::vector<std::pair<ResultFrame, std::vector<const SurfaceFormat*>>> work;
-  for (const ResultFrame& frame : frames) {
-    auto missing = surfaces.missing(frame);
-    if (!missing.empty()) work.emplace_back(frame, std::move(missing));
-  }
-  Tally tally;
-  {
-    CountProgress progress(style, "frames", static_cast<std::int64_t>(work.size()));
-    for (const auto& [frame, formats] : work) {
-      if (stop_asked()) break;
-      const SurfaceMesh mesh = timed(tally.reconstruction, [&] {
-        return reconstruct(read_frame(frame.file), surfaces.plan().spacing, surfaces.plan().settings);
-      });
-      timed(tally.writing, [&] { surfaces.write(frame.number, mesh, formats); });
-      tally.triangles += mesh.triangle_count();
-      ++tally.made;
-      progress.update(static_cast<std::int64_t>(tally.made), fmt::format("{} triangles", mesh.triangle_count()));
-    }
-  }
+  const std::vector<Due> work = due_of(surfaces, frames);
+  const Tally tally = make(surfaces, work, style);
   const bool early = tally.made < work.size();
-  if (!early) timed(tally.writing, [&] { surfaces.finish(); });
   if (early) say(stderr, fmt::format("interrupted; {} of {} frames are written\n", tally.made, work.size()));
-  if (options.progress != "json") print_end(tally, frames.size(), folder.string());
+  if (options.progress != "json") print_end(tally, frames.size() - work.size(), folder.string());
   return early ? interrupted : done;
 }
 
@@ -188,7 +216,7 @@ void add_mesh(CLI::App& program, int& exit_code) {
   command->add_option("--frames", options->frames, "frames by their place: 10:20, ::5, 0,3,-1")->type_name("LIST");
   command->add_option("--spacing", options->spacing, "distance of the particles, in place of the scene's")
       ->type_name("METRES")
-      ->check(finite_and_positive, "");
+      ->check([](const std::string& word) { return finite_and_positive_in("m", word); }, "");
   command->add_flag("--again", options->again, "make surfaces anew that are up to date");
   command->add_option("--threads", options->threads, "threads to use (default: all)")
       ->type_name("N")

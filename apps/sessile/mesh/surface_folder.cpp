@@ -54,7 +54,24 @@ std::vector<const SurfaceFormat*> formats_named(const std::vector<std::string>& 
   return formats;
 }
 
+/// Removes the files that hold a frame's surface.
+void remove_files(const fs::path& folder, const SurfaceEntry& entry) {
+  std::error_code ignored;
+  for (const std::string& file : entry.files) fs::remove(folder / file, ignored);
+}
+
 }  // namespace
+
+void remove_surfaces(const fs::path& folder) {
+  const SurfaceIndex index = read_index(folder / index_file);
+  std::error_code ignored;
+  for (const SurfaceEntry& each : index.frames) remove_files(folder, each);
+  for (const SurfaceIndex::Solid& each : index.solids) fs::remove(folder / each.file, ignored);
+  if (index.source.empty()) return;
+  fs::remove(folder / collection_file, ignored);
+  fs::remove(folder / index_file, ignored);
+  if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
+}
 
 void write_surface(const fs::path& file, const SurfaceFormat& format, const SurfaceMesh& mesh, const SurfacePlan& plan,
                    const Vec3d& up) {
@@ -90,15 +107,11 @@ SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scen
   if (!anew && before.same_origin(index_)) {
     index_.frames = std::move(before.frames);
   } else {
-    for (const SurfaceEntry& each : before.frames) forget(each);
+    remove_surfaces(folder_);
+    create_output_folder(folder_);
   }
   write_solids();
   write_index();
-}
-
-void SurfaceFolder::forget(const SurfaceEntry& entry) const {
-  std::error_code ignored;
-  for (const std::string& file : entry.files) fs::remove(folder_ / file, ignored);
 }
 
 void SurfaceFolder::keep_only(const std::vector<ResultFrame>& frames) {
@@ -106,7 +119,7 @@ void SurfaceFolder::keep_only(const std::vector<ResultFrame>& frames) {
     const bool there = std::any_of(frames.begin(), frames.end(), [&](const ResultFrame& frame) {
       return frame.number == each.number && frame.time == each.time;
     });
-    if (!there) forget(each);
+    if (!there) remove_files(folder_, each);
     return !there;
   });
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sessile/output/frames.h"
@@ -14,6 +15,12 @@
 #include "surface_index.h"
 
 namespace sessile::app {
+
+/// Of the folder of surfaces in a folder of results.
+inline constexpr std::string_view surface_folder_name = "surface";
+
+/// Removes the surfaces of an earlier run, those that surface.json lists, and the folder when nothing else is in it.
+void remove_surfaces(const std::filesystem::path& folder);
 
 /// How surfaces are made, and in which formats they are written.
 struct SurfacePlan {
@@ -59,7 +66,6 @@ class SurfaceFolder {
   void write_solids();
   void write_index() const;
   SurfaceEntry& entry(std::int64_t number);
-  void forget(const SurfaceEntry& entry) const;
 
   std::filesystem::path folder_;
   SurfacePlan plan_;

@@ -29,14 +29,15 @@ std::string frame_json(const SurfaceEntry& entry) {
                      entry.time, quoted(entry.files.empty() ? "" : entry.files.front()), entry.triangles, files);
 }
 
+/// Whether it is a file of this folder that bears a name of ours: what is listed may be removed one day.
+bool is_ours(const std::string& name, std::string_view prefix) {
+  return name.starts_with(prefix) && name.find('/') == std::string::npos;
+}
+
 SurfaceEntry entry_of(const Json::Value& json) {
   SurfaceEntry entry{json["number"].asInt64(), json["time"].asDouble(), {}, json["triangles"].asUInt64()};
   for (const Json::Value& file : json["files"]) {
-    // A name alone: what lies elsewhere is none of this folder's.
-    const std::string name = file.asString();
-    if (name == std::filesystem::path(name).filename().string() && name.starts_with("surface")) {
-      entry.files.push_back(name);
-    }
+    if (is_ours(file.asString(), "surface")) entry.files.push_back(file.asString());
   }
   return entry;
 }
@@ -71,6 +72,10 @@ SurfaceIndex read_index(const std::filesystem::path& file) {
     index.source = json["source"].asString();
     index.spacing = json["spacing"].asDouble();
     for (const Json::Value& frame : json["frames"]) index.frames.push_back(entry_of(frame));
+    for (const Json::Value& solid : json["solids"]) {
+      const std::string name = solid["file"].asString();
+      if (is_ours(name, "solid_")) index.solids.push_back({solid["label"].asString(), name});
+    }
   } catch (const Json::Exception&) {
     return {};
   }

@@ -9,6 +9,7 @@
 
 #include "sessile/output/frames.h"
 #include "sessile/output/snapshot.h"
+#include "sessile/output/surfaces.h"
 #include "sessile/scene/spelling.h"
 
 namespace sessile {
@@ -26,9 +27,9 @@ void check_names(const std::vector<std::string>& names, const std::vector<std::s
   }
 }
 
-std::vector<std::string> formats_of_frames() {
+std::vector<std::string> names_of(const auto& formats) {
   std::vector<std::string> names;
-  for (const FrameFormat& format : frame_formats()) names.emplace_back(format.name);
+  for (const auto& format : formats) names.emplace_back(format.name);
   return names;
 }
 
@@ -52,7 +53,10 @@ std::vector<std::string> fields_of(const Scene& scene) {
 
 std::vector<Fault> check_output(const Scene& scene) {
   std::vector<Fault> faults;
-  check_names(scene.output.formats, formats_of_frames(), "output.formats", "format", faults);
+  check_names(scene.output.formats, names_of(frame_formats()), "output.formats", "format", faults);
+  if (scene.output.surface) {
+    check_names(scene.output.surface->formats, names_of(surface_formats()), "output.surface.formats", "format", faults);
+  }
   check_names(scene.output.columns, fields_of(scene), "output.fields", "field", faults);
   return faults;
 }

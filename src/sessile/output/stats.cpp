@@ -61,6 +61,12 @@ constexpr auto columns = std::to_array<StatsColumn<StatsRow>>({
     {"unconverged_solves", "", [](const StatsRow& r) -> Cell { return r.totals.unconverged_solves; }},
 });
 
+/// Columns that are there when a scene asks for them.
+constexpr auto surface_columns = std::to_array<StatsColumn<SurfaceMeasures>>({
+    {"surface_area", "m^2", [](const SurfaceMeasures& s) -> Cell { return s.area; }},
+    {"surface_volume", "m^3", [](const SurfaceMeasures& s) -> Cell { return s.volume; }},
+});
+
 /// Columns that each solid has; its label stands in front.
 constexpr auto solid_columns = std::to_array<StatsColumn<SolidForce>>({
     {"force_x", "N", [](const SolidForce& s) -> Cell { return s.force.x; }},
@@ -105,9 +111,12 @@ void append(std::string& line, const Cell& cell) {
 
 }  // namespace
 
-std::string stats_header(std::span<const std::string> solid_labels) {
+std::string stats_header(std::span<const std::string> solid_labels, bool surface) {
   std::vector<std::string> titles;
   for (const auto& column : columns) titles.push_back(csv_field(column_title(column.name, column.unit)));
+  if (surface) {
+    for (const auto& column : surface_columns) titles.push_back(column_title(column.name, column.unit));
+  }
   for (const std::string& label : distinct(solid_labels)) {
     for (const auto& column : solid_columns) {
       titles.push_back(csv_field(column_title(fmt::format("{}.{}", label, column.name), column.unit)));
@@ -119,20 +128,25 @@ std::string stats_header(std::span<const std::string> solid_labels) {
 std::string stats_line(const StatsRow& row) {
   std::string line;
   for (const auto& column : columns) append(line, column.cell(row));
+  if (row.surface) {
+    for (const auto& column : surface_columns) append(line, column.cell(*row.surface));
+  }
   for (const SolidForce& solid : row.solids) {
     for (const auto& column : solid_columns) append(line, column.cell(solid));
   }
   return line + '\n';
 }
 
-StatsWriter::StatsWriter(const std::filesystem::path& path, std::span<const std::string> solid_labels) : file_(path) {
-  file_.append(stats_header(solid_labels));
+StatsWriter::StatsWriter(const std::filesystem::path& path, std::span<const std::string> solid_labels, bool surface)
+    : file_(path) {
+  file_.append(stats_header(solid_labels, surface));
 }
 
 void StatsWriter::write(const StatsRow& row) { file_.append(stats_line(row)); }
 
-void StatsWriter::write(const Simulation& simulation, const Diagnostics& measured) {
-  write({simulation.time(), simulation.last_step(), simulation.totals(), measured, simulation.walls().forces});
+void StatsWriter::write(const Simulation& simulation, const Diagnostics& measured,
+                        const std::optional<SurfaceMeasures>& surface) {
+  write({simulation.time(), simulation.last_step(), simulation.totals(), measured, simulation.walls().forces, surface});
 }
 
 }  // namespace sessile

@@ -167,6 +167,8 @@ std::string models_text() {
   kind("Forces (forces[])", [](const std::string& path) { return path == "forces[]"; });
   kind("Shapes (shape of a body, an emitter or a solid)",
        [](const std::string& path) { return path.ends_with(".shape"); });
+  kind("Surface methods (output.surface.method)",
+       [](const std::string& path) { return path == "output.surface.method"; });
   return text;
 }
 

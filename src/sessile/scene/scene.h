@@ -12,6 +12,7 @@
 #include "sessile/forces/force.h"
 #include "sessile/pressure/pressure.h"
 #include "sessile/scene/shapes.h"
+#include "sessile/scene/surface_settings.h"
 
 /// A scene as plain structs: what a scene file says, after defaults, in SI units.
 namespace sessile {
@@ -170,12 +171,32 @@ struct Solid {
   }
 };
 
+/// Surfaces of the liquid that a run makes as it goes, with the settings that all surfaces have.
+struct SurfaceOutput : SurfaceSettings {
+  std::vector<std::string> formats{"ply"};
+  std::optional<double> interval;
+  bool stats = false;
+
+  static constexpr auto fields() {
+    using T = SurfaceOutput;
+    return std::tuple_cat(
+        std::tuple{
+            field(&T::formats, "formats", "file formats of a surface; see `sessile models`"),
+            derived(field(&T::interval, "interval", "s", positive, "simulated time between surfaces"),
+                    "the frame interval"),
+            field(&T::stats, "stats", "whether stats.csv has surface_area and surface_volume"),
+        },
+        SurfaceSettings::fields());
+  }
+};
+
 /// What a run writes.
 struct Output {
   double frame_interval = 0.04;
   std::optional<double> stats_interval;
   std::vector<std::string> formats{"vtp"};
   std::vector<std::string> columns{"id", "velocity", "density", "pressure"};
+  std::optional<SurfaceOutput> surface;
 
   static constexpr auto fields() {
     using T = Output;
@@ -186,6 +207,8 @@ struct Output {
                 "a tenth of the frame interval"),
         field(&T::formats, "formats", "file formats of a frame; see `sessile models`"),
         field(&T::columns, "fields", "per-particle fields of a frame; see `sessile models`"),
+        derived(field(&T::surface, "surface", "surfaces of the liquid, in the folder surface"),
+                "none; `sessile mesh` makes them from frames"),
     };
   }
 };

@@ -233,8 +233,18 @@ class SceneCheck {
                       scene_.time.end),
           {"time.end"});
     }
+    if (output.surface) surface(*output.surface);
     twice("output.formats", output.formats);
     twice("output.fields", output.columns);
+  }
+
+  void surface(const SurfaceOutput& surface) {
+    if (surface.interval && scene_.time.end / *surface.interval > most_frames) {
+      add("output.surface.interval",
+          fmt::format("{} s would make more than {} surfaces in {} s", *surface.interval, most_frames, scene_.time.end),
+          {"time.end"});
+    }
+    twice("output.surface.formats", surface.formats);
   }
 
   void twice(const std::string& path, const std::vector<std::string>& words) {

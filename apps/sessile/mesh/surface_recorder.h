@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "schedule.h"
+#include "sessile/output/stats.h"
+#include "sessile/simulation.h"
+#include "surface_folder.h"
+
+namespace sessile::app {
+
+/// Makes the surfaces that a scene asks for while it runs: files in the folder surface of its results, and the
+/// surface's measures for stats.csv.
+class SurfaceRecorder {
+ public:
+  /// `results` is the folder of the run. Throws FileError.
+  SurfaceRecorder(const std::filesystem::path& results, const Scene& scene);
+
+  /// Called after each step: writes a surface when one is due. Throws FileError.
+  void record(const Simulation& simulation);
+
+  /// Area and volume of the surface now, where the scene asks for them.
+  std::optional<SurfaceMeasures> measure(const Simulation& simulation);
+
+  /// Writes the last state's surface, unless the run has failed, and what completes the files. Throws FileError.
+  void finish(const Simulation& simulation, bool failed);
+
+ private:
+  void write(const Simulation& simulation);
+
+  std::optional<SurfaceOutput> asked_;
+  Schedule schedule_;
+  std::optional<SurfaceFolder> folder_;  // when there are formats
+  std::int64_t written_ = 0;
+  double measured_time_ = -1;  // of measures_ [s]
+  SurfaceMeasures measures_{};
+};
+
+}  // namespace sessile::app

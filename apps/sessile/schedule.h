@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+namespace sessile::app {
+
+/// When something falls due that is done at intervals of simulated time: with the first state at or after its time.
+class Schedule {
+ public:
+  /// An interval of 0 s: with every state.
+  explicit Schedule(double interval) : interval_(interval) {}
+
+  /// Whether it is due in a state of this time [s].
+  bool due(double time) const {
+    // A hair of an interval forgives the rounding of many added steps.
+    return interval_ == 0 || time >= (static_cast<double>(served_) - 1e-6) * interval_;
+  }
+
+  /// Notes that it has been done for the state of this time [s].
+  void done(double time) {
+    last_ = time;
+    if (interval_ > 0) served_ = static_cast<std::int64_t>(time / interval_ + 1e-6) + 1;
+  }
+
+  /// Whether it has been done for the state of this time [s].
+  bool is_done(double time) const { return last_ >= time; }
+
+ private:
+  double interval_;
+  double last_ = -1;
+  std::int64_t served_ = 0;  // intervals
+};
+
+}  // namespace sessile::app
