@@ -188,6 +188,26 @@ class View(CliTest):
             self.assertEqual(frames, "5")
         self.quit()
 
+    def test_finds_the_frames_that_a_run_still_writes(self):
+        self.call("run", self.write(tiny()), "-o", "all", "--progress", "none")
+        late = ["frame_000003.vtp", "frame_000004.vtp"]
+        shutil.copytree(self.folder / "all", self.folder / "out",
+                        ignore=lambda folder, names: [n for n in names if n in late or n.endswith(".ply")])
+        self.open("out")
+        self.press("period", "period")
+        self.still_at(0.02)
+        self.press("period")
+        self.still_at(0.02)
+        for name in late:
+            shutil.copy(self.folder / "all" / name, self.folder / "out")
+
+        def later():
+            self.press("period")
+            return "_0.0200s" not in self.still().name
+
+        self.until("a later frame", later)
+        self.quit()
+
     def test_films_a_simulation(self):
         if not shutil.which("ffmpeg"):
             self.skipTest("needs ffmpeg")

@@ -50,13 +50,24 @@ bool Canvas::bounds(Vec3d& low, Vec3d& high) const {
   return true;
 }
 
-void Canvas::paint(const draw::Camera& camera, const draw::Appearance& appearance, int width, int height) {
+void Canvas::paint(const draw::Camera& camera, const draw::Appearance& appearance, int width, int height, bool coarse) {
   if (width != this->width() || height != this->height()) {
     const KeepContext keep;
     target_ = std::make_unique<draw::gl::Target>(width, height, std::initializer_list<GLenum>{GL_RGBA8}, true);
+    coarse_ =
+        std::make_unique<draw::gl::Target>((width + 1) / 2, (height + 1) / 2, std::initializer_list<GLenum>{GL_RGBA8});
     ink_ = std::make_unique<draw::Ink>(width, height);
   }
-  painter_->paint(camera, appearance, width, height, target_->framebuffer());
+  if (coarse) {
+    draw::Appearance rough = appearance;
+    rough.fineness = 1;
+    painter_->paint(camera, rough, coarse_->width(), coarse_->height(), coarse_->framebuffer());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, coarse_->framebuffer());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target_->framebuffer());
+    glBlitFramebuffer(0, 0, coarse_->width(), coarse_->height(), 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  } else {
+    painter_->paint(camera, appearance, width, height, target_->framebuffer());
+  }
   if (!appearance.legend) return;
   const KeepContext keep;
   const auto range = appearance.range.value_or(draw::own_range(moment_));

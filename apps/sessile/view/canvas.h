@@ -24,7 +24,8 @@ class Canvas {
   /// Box around the particles shown; false when there are none.
   bool bounds(Vec3d& low, Vec3d& high) const;
 
-  void paint(const draw::Camera& camera, const draw::Appearance& appearance, int width, int height);
+  /// `coarse`: with a quarter of the pixels, drawn larger, where a whole picture takes long.
+  void paint(const draw::Camera& camera, const draw::Appearance& appearance, int width, int height, bool coarse);
   void copy_to(const Region& region, int window_height) const;
   draw::Image image() const;
 
@@ -33,7 +34,7 @@ class Canvas {
 
  private:
   std::unique_ptr<draw::Painter> painter_;
-  std::unique_ptr<draw::gl::Target> target_;
+  std::unique_ptr<draw::gl::Target> target_, coarse_;
   std::unique_ptr<draw::Ink> ink_;
   draw::Moment moment_;
 };

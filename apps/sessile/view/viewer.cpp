@@ -17,8 +17,10 @@ namespace {
 
 constexpr double frame_time = 1.0 / 60;  // where the display does not set the pace [s]
 constexpr double quick_frame = 0.03;     // after a frame that took no longer the next may follow at once [s]
-constexpr double idle_time = 0.25;       // between looks when nothing moves [s]
-constexpr double notice_time = 6;        // [s]
+constexpr double slow_frame = 0.1, coarse_gain = 3;  // [s]; how much longer a whole picture takes
+constexpr double calm_time = 0.3;                    // without a change, after which a coarse picture is made whole [s]
+constexpr double idle_time = 0.25;                   // between looks when nothing moves [s]
+constexpr double notice_time = 6;                    // [s]
 constexpr float panel_letters = 25, least_panel_letters = 14;  // width of the panel
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -54,7 +56,7 @@ void Viewer::run() {
 double Viewer::rest() const {
   const double since = seconds_since(last_);
   if (options_.frames > 0) return 0;
-  const bool busy = source_.moves() || capture_.recording() || restless_ > 0;
+  const bool busy = source_.moves() || capture_.recording() || restless_ > 0 || owed_;
   return busy ? std::max(frame_time - since, 1e-4) : idle_time;
 }
 
@@ -75,8 +77,9 @@ bool Viewer::worth_drawing() {
   if (notice_ends) notice_.clear();
   // Where drawing takes long, on processors that step the liquid as well, half of the time is left to the steps.
   const bool rested = seconds_since(shown_) >= cost_ - quick_frame;
-  const bool worth = (dirty_ && rested) || restless_ > 0 || notice_ends || capture_.due() || options_.frames > 0 ||
-                     ImGui::GetIO().WantTextInput;  // its cursor blinks
+  const bool sharpen = owed_ && seconds_since(stirred_) > calm_time;
+  const bool worth = (dirty_ && rested) || sharpen || restless_ > 0 || notice_ends || capture_.due() ||
+                     options_.frames > 0 || ImGui::GetIO().WantTextInput;  // its cursor blinks
   if (restless_ > 0) --restless_;
   return worth;
 }
@@ -95,6 +98,7 @@ void Viewer::draw_frame() {
   window_.end_frame();
   shown_ = Clock::now();
   cost_ = seconds_since(last_);
+  if (std::exchange(painted_, false)) slow_ = (owed_ ? coarse_gain : 1) * cost_ > slow_frame;
   if (capture_.recording()) film(std::exchange(fresh_, false));
 }
 
@@ -105,17 +109,22 @@ Region Viewer::picture() const {
   return {left, 0, std::max(1, window_.width() - left), std::max(1, window_.height() - pixels(status_height_))};
 }
 
-void Viewer::paint() {
+/// Paints what has changed: coarsely where that takes long, and wholly once things are calm, or when asked to.
+void Viewer::paint(bool whole) {
   const Region region = picture();
   if (region.width != canvas_.width() || region.height != canvas_.height()) dirty_ = true;
-  if (!dirty_) return;
+  if (dirty_) stirred_ = Clock::now();
+  const bool calm = seconds_since(stirred_) > calm_time;
+  if (!dirty_ && !(owed_ && (whole || calm))) return;
+  owed_ = dirty_ && slow_ && !whole && !capture_.recording();
+  painted_ = true;
   dirty_ = false;
   if (!fitted_) fit(false);
   fitted_ = true;
   draw::Appearance appearance = settings_.appearance;
   if (settings_.fixed_range) appearance.range = std::pair{settings_.low, settings_.high};
   if (settings_.clipped) appearance.clip = settings_.plane;
-  canvas_.paint(settings_.camera, appearance, region.width, region.height);
+  canvas_.paint(settings_.camera, appearance, region.width, region.height, owed_);
 }
 
 void Viewer::draw_interface() {

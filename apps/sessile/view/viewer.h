@@ -37,7 +37,7 @@ class Viewer {
   void draw_interface();
   void draw_status();
   void draw_notice();
-  void paint();
+  void paint(bool whole = false);
   void film(bool fresh);
   void act(Action action);
   void act_on_view(Action action);
@@ -61,6 +61,10 @@ class Viewer {
   int restless_ = 3;  // pictures to draw although nothing seems to change: ImGui answers one late
   std::string notice_;
   Clock::time_point notice_end_{}, last_ = Clock::now(), shown_ = last_;
+  Clock::time_point stirred_ = last_;  // when the picture last had a reason to change
+  bool slow_ = false;                  // whether a whole picture takes too long while things move
+  bool owed_ = false;                  // whether a whole picture is to follow a coarse one
+  bool painted_ = false;
   double cost_ = 0;  // of the last picture [s]
   double frames_per_second_ = 0;
   std::int64_t drawn_ = 0;

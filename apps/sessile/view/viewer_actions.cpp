@@ -19,7 +19,7 @@ void Viewer::act(Action action) {
       break;
     case Action::still:
       try {
-        paint();
+        paint(true);
         say(capture_.save(canvas_.image(), canvas_.moment().time));
       } catch (const std::exception& e) {
         say(e.what());
@@ -114,7 +114,7 @@ void Viewer::toggle_video() {
       if (!source_.video_by_moment()) capture_.add(canvas_.image(), false);  // up to now
       say(capture_.finish());
     } else {
-      paint();
+      paint(true);
       say(capture_.start(canvas_.width(), canvas_.height(), canvas_.moment().time));
       capture_.add(canvas_.image(), true);  // it begins with what is shown
       fresh_ = false;
