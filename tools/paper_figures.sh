@@ -15,7 +15,7 @@ tools/setup.sh build render
 mkdir -p "$work"
 
 methods=(none akinci2013 paper)
-titles=("none" "Akinci et al. 2013" "the paper's")
+titles=("none" "Akinci et al. 2013" "improved (the paper's)")
 size=420x300
 
 # figure NAME INTERVAL PLACES CAMERA...: runs, meshes and renders frames at those places, and joins the pictures.
@@ -33,16 +33,16 @@ figure() {
   step "Join $name" "paper-$name-join.log" join "$name"
 }
 
-# A line of titles, then a line of pictures for each moment, the moment's time written into the first.
+# A line of titles, then a line of pictures for each moment.
 join() {
   local name=$1 method column=0 width=${size%x*}
   local columns=() picture
   for method in "${methods[@]}"; do
     local cells=()
     for picture in "$work/$name/$method/render"/frame_*.png; do
-      cells+=("$picture" -bordercolor white -border 2)
+      cells+=("$picture")
     done
-    convert "${cells[@]}" -append "$work/$name/column.png"
+    convert "${cells[@]}" -bordercolor white -border 2 -append "$work/$name/column.png"
     convert -background white -fill black -font DejaVu-Sans -pointsize 17 -gravity center \
       -size "$((width + 4))x34" "label:${titles[$column]}" "$work/$name/column.png" -append "$work/$name/column$column.png"
     columns+=("$work/$name/column$column.png")

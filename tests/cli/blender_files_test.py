@@ -1,6 +1,7 @@
 """What tools/blender reads and computes without Blender: meshes, folders, solids with margins."""
 import importlib
 import json
+import math
 import pathlib
 import struct
 import subprocess
@@ -15,6 +16,7 @@ try:
     sys.path.insert(0, str(TOOLS))
     mesh_file = importlib.import_module("sessile.mesh_file")
     surface_folder = importlib.import_module("sessile.surface_folder")
+    looks = importlib.import_module("sessile.looks")
     thick = importlib.import_module("sessile.thick")
 except ImportError:
     np = None
@@ -119,6 +121,19 @@ class MeshFiles(unittest.TestCase):
         code = f"import sys; sys.path.insert(0, {str(TOOLS)!r}); import sessile; print(sessile.bl_info['name'])"
         said = subprocess.run([sys.executable, "-B", "-c", code], capture_output=True, text=True, check=True)
         self.assertEqual(said.stdout, "Sessile results\n")
+
+
+@unittest.skipIf(np is None, "this Python has no NumPy")
+class Looks(unittest.TestCase):
+    def test_every_word_of_a_scene_has_its_look(self):
+        header = (TOOLS.parents[1] / "src/sessile/scene/render_settings.h").read_text()
+        words = header.split("Words<LiquidLook>")[1].split("words{")[1].split("}")[0]
+        self.assertEqual([word.strip().strip('"') for word in words.split(",")], list(looks.LOOKS))
+
+    def test_absorption_leaves_the_tint_at_its_depth(self):
+        density, color = looks.absorption((0.5, 0.25, 1.0), 2.0)
+        for tint, part in zip((0.5, 0.25, 1.0), color):
+            self.assertAlmostEqual(math.exp(-2 * density * (1 - part)), tint)
 
 
 @unittest.skipIf(np is None, "this Python has no NumPy")

@@ -3,7 +3,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from . import materials, objects, sequence
+from . import looks, materials, objects, sequence
 from .mesh_file import MeshFileError
 from .surface_folder import FolderError, open_folder
 
@@ -37,7 +37,7 @@ class ImportSessileResults(bpy.types.Operator, ImportHelper):
     filter_glob: StringProperty(default="surface.json", options={"HIDDEN"})
     start: IntProperty(name="First frame", description="Frame of the timeline at which the results begin", default=0)
     speed: FloatProperty(name="Speed", description="0.5 is slow motion", default=1.0, min=1e-6, soft_max=10)
-    look: EnumProperty(name="Look", items=[(each, each.capitalize(), "") for each in materials.LOOKS], default="water")
+    look: EnumProperty(name="Look", items=[(each, each.capitalize(), "") for each in looks.LOOKS], default="water")
     with_solids: BoolProperty(name="Solids", default=True)
     margin: FloatProperty(name="Margin of solids", default=0.5, min=0, max=2,
                           description="How far their faces stand out, over the particle spacing")

@@ -99,6 +99,8 @@ class Extent:
     def _framed(clouds, fixed):
         """What the picture is to hold: all solids; of liquid, what stays near them: drops that fall out of the scene
         would make everything else small."""
+        if not fixed and not clouds:
+            raise ValueError("there is nothing to see: no liquid in any frame, and no solids")
         if not fixed:
             return np.concatenate(clouds)
         solid = np.concatenate(fixed)
