@@ -15,7 +15,7 @@ namespace {
 using Layer = std::uint64_t;
 constexpr std::size_t layers = block_edge;
 
-constexpr Layer first_column = 0x0101010101010101, first_row = 0xff;
+constexpr Layer first_column = 0x0101010101010101;  // the points with x = 0
 
 constexpr Layer bit(int x, int y) { return Layer{1} << (block_edge * y + x); }
 
