@@ -55,7 +55,8 @@ class Picture(CliTest):
         self.run_scene()
         pictures = {}
         for name, arguments in {"plain": (), "again": (), "liquid": ("--look", "liquid"), "surface": ("--look", "surface"),
-                                "first": ("--frame", 0), "time": ("--time", 0), "height": ("--field", "height"),
+                                "first": ("--frame", 0), "time": ("--time", 0),
+                                "last": ("--frame", -1), "height": ("--field", "height"),
                                 "range": ("--range", "0,0.1"), "bare": ("--no-solids",), "mute": ("--no-legend",),
                                 "view": ("--view", "70,10"), "near": ("--zoom", 2), "flat": ("--orthographic",),
                                 "fine": ("--fineness", 2)}.items():
@@ -63,6 +64,7 @@ class Picture(CliTest):
             pictures[name] = self.draw("out", *small, *arguments, name=name + ".png")
             self.assertGreater(len({c for row in pictures[name] for c in row}), 50, f"{name} is blank")
         self.assertEqual(pictures.pop("again"), pictures["plain"])
+        self.assertEqual(pictures.pop("last"), pictures["plain"])
         self.assertEqual(pictures.pop("time"), pictures["first"])
         names = sorted(pictures)
         for k, one in enumerate(names):
@@ -172,6 +174,8 @@ class Picture(CliTest):
             ("out", "-o", "a.png", "--look", "liquid", "--field", "speed"): "own colour",
             ("out", "-o", "a.png", "--size", "12"): "two whole numbers such as 1280x720",
             ("out", "-o", "a.png", "--size", "1x9000"): "sides must be from 16 to 8192 pixels",
+            ("out", "-o", "a.png", "--size", "8000x80", "--fineness", "4"): "must not exceed 16384, found 32000",
+            ("out/frame_000000.vtp", "-o", "a.png"): "is one frame; give its folder",
             ("out", "-o", "a.png", "--range", "2,1"): "must ascend",
             ("out", "-o", "a.png", "--view", "0,95"): "below 90 degrees",
             ("out", "-o", "a.png", "--time", "-1"): "before 0 s",

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 
@@ -13,7 +16,8 @@
 namespace sessile::app {
 namespace {
 
-constexpr int greatest_size = 8192;  // what every graphics card can do
+constexpr int greatest_size = 8192;
+constexpr int greatest_rays = 16384;  // what every graphics card can do
 
 /// The numbers of a text with separators between them; nothing when something else stands there.
 template <class T>
@@ -166,6 +170,14 @@ std::string clash(const PictureOptions& options) {
   if (options.picture.empty() && options.video.empty())
     return "name the file to write: -o FILE.png, or --video FILE.mp4";
   if (!options.picture.empty() && !options.video.empty()) return "give -o or --video, not both";
+  const int rays = std::max(options.size.first, options.size.second) * options.fineness;
+  if (rays > greatest_rays) {
+    return fmt::format("a side of the picture times --fineness must not exceed {}, found {}", greatest_rays, rays);
+  }
+  const std::string ending = std::filesystem::path(options.source).extension().string();
+  if (ending == ".vtp" || ending == ".ply") {
+    return fmt::format("{} is one frame; give its folder, and --frame N for the frame", in_quotes(options.source));
+  }
   if (!options.frames.empty() && !options.times.empty()) return "give --frames or --time, not both";
   if (options.look != draw::Look::particles && (!options.field.empty() || options.range)) {
     return "--field and --range colour particles; the other looks have the liquid's own colour";
