@@ -29,7 +29,7 @@ until [ -s "$work/display" ]; do sleep 0.1; done
 export DISPLAY=:$(cat "$work/display") LIBGL_ALWAYS_SOFTWARE=1
 
 until=${SESSILE_SCREENSHOT_AT:-2} # simulated seconds
-build/release/bin/sessile view "$scene" --play --set "time.end=$until" -o "$work" &
+build/release/bin/sessile view "$scene" --set "time.end=$until" -o "$work" &
 viewer=$!
 window=$(xdotool search --sync --name Sessile | head -1)
 xdotool windowfocus --sync "$window"

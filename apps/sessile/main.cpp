@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <new>
 #include <string>
@@ -71,8 +73,9 @@ int main(int argc, char** argv) {
     return app::run_failed;
   }
   // What the other commands print is all they are for; these have their files.
+  constexpr auto with_files = std::to_array<const char*>({"run", "mesh", "picture", "view", "render", "compare"});
   const bool has_files =
-      program.got_subcommand("run") || program.got_subcommand("compare") || program.got_subcommand("mesh");
+      std::any_of(with_files.begin(), with_files.end(), [&](const char* name) { return program.got_subcommand(name); });
   if (!has_files && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
     app::say(stderr, "sessile: cannot write to standard output\n");
     return app::run_failed;

@@ -3,7 +3,7 @@ import re
 
 from sessile_cli import VERSION, CliTest, tiny, unittest
 
-COMMANDS = ("run", "mesh", "compare", "bench", "check", "info", "models")
+COMMANDS = ("run", "mesh", "picture", "view", "render", "compare", "bench", "check", "info", "models")
 
 
 class Help(CliTest):
@@ -18,6 +18,11 @@ class Help(CliTest):
         options = {"run": ["SCENE", "--output DIR", "--set PATH=VALUE", "--until SECONDS", "--threads N", "--progress"],
                    "mesh": ["DIR|FRAME", "--output DIR", "--format NAME", "--set PATH=VALUE", "--frames LIST",
                             "--spacing METRES", "--again", "--threads N", "--progress"],
+                   "picture": ["DIR|SCENE", "--output FILE", "--frames LIST", "--time SECONDS", "--look NAME", "--field NAME", "--range LOW,HIGH",
+                               "--view AZIMUTH,ELEVATION", "--size WxH", "--video FILE", "--fps N"],
+                   "view": ["SCENE|DIR", "--output DIR", "--set PATH=VALUE", "--paused", "--field NAME", "--look", "--size WxH"],
+                   "render": ["DIR", "--output DIR", "--frames LIST", "--look NAME", "--camera KEY=VALUE", "--samples N",
+                              "--size WxH", "--fps N", "--video FILE", "--blend FILE", "--again", "--progress"],
                    "compare": ["SCENE", "--methods LIST", "--output DIR", "--set PATH=VALUE", "--until SECONDS",
                                "--threads N", "--progress", "--search-dt", "--search-until SECONDS",
                                "--search-max SECONDS"],

@@ -82,8 +82,9 @@ class View(CliTest):
             time.sleep(0.05)
         self.fail(f"waited in vain for {what}")
 
-    def open(self, *arguments, size="600x400"):
-        self.viewer = self.start("view", *arguments, "--size", size, "-o", "shots")
+    def open(self, *arguments, size="600x400", playing=False):
+        start = [] if playing else ["--paused"]
+        self.viewer = self.start("view", *arguments, *start, "--size", size, "-o", "shots")
         self.window = self.until("the window", lambda: self.xdotool("search", "--name", "Sessile"))
         self.xdotool("windowfocus", "--sync", self.window)
 
@@ -211,7 +212,7 @@ class View(CliTest):
     def test_films_a_simulation(self):
         if not shutil.which("ffmpeg"):
             self.skipTest("needs ffmpeg")
-        self.open(self.write(tiny(time={"end": 100, "fixed_dt": 0.005})), "--play")
+        self.open(self.write(tiny(time={"end": 100, "fixed_dt": 0.005})), playing=True)
         self.press("v")
         time.sleep(1)
         self.press("v")
@@ -220,7 +221,7 @@ class View(CliTest):
         self.quit()
 
     def test_survives_other_sizes(self):
-        self.open(self.write(tiny()), "--play")
+        self.open(self.write(tiny()), playing=True)
         for width, height in ((790, 590), (330, 250), (500, 300)):
             self.xdotool("windowsize", "--sync", self.window, width, height)
             time.sleep(0.3)
@@ -254,14 +255,14 @@ class View(CliTest):
         self.quit()
 
     def test_ends_when_its_window_is_closed(self):
-        self.open(self.write(tiny()), "--play")
+        self.open(self.write(tiny()), playing=True)
         ask_to_close(self.display.name, int(self.window.splitlines()[0]))
         out, err = self.viewer.communicate(timeout=WAIT)
         self.assertEqual((self.viewer.returncode, out, err), (DONE, "", ""))
 
     def test_ends_after_so_many_frames(self):
         self.call("view", self.write(tiny()), "--frames", "3", "--size", "400x300")
-        self.call("view", "s.json", "--frames", "5", "--play", "--look", "surface", "--field", "density")
+        self.call("view", "s.json", "--frames", "5", "--look", "surface", "--field", "density")
 
 
 class ViewWithoutDisplay(CliTest):

@@ -24,7 +24,7 @@ struct ViewOptions {
   std::vector<std::string> overrides;
   int threads = 0;
   std::int64_t frames = 0;
-  bool play = false;
+  bool paused = false;
 };
 
 /// Width and height of "1280x800"; what is wrong otherwise, for CLI11.
@@ -63,7 +63,7 @@ int view(const ViewOptions& options) {
   }
   viewer::Window window(title, width, height);
   viewer::Viewer viewer(window, *source, settings, {name, options.output, options.frames});
-  if (options.play) source->act(viewer::Action::play);
+  if (!options.paused) source->act(viewer::Action::play);
   viewer.run();
   return done;
 }
@@ -86,7 +86,7 @@ void add_view(CLI::App& program, int& exit_code) {
   command->add_option("--threads", options->threads, "threads for the steps (default: all)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--play", options->play, "run at once, instead of waiting for Space");
+  command->add_flag("--paused", options->paused, "wait for Space, instead of running at once");
   command->add_option("--field", options->field, "what colours at first: speed, density ...")->type_name("NAME");
   command->add_option("--look", options->look, "how the liquid looks at first")
       ->check(CLI::IsMember({"particles", "liquid", "surface"}))
