@@ -113,37 +113,83 @@ Indices drop_unused(SurfaceMesh& mesh) {
   return kept;
 }
 
-/// Triangles of a piece with up to `share` of them taken out.
-Indices simplified(const SurfaceMesh& piece, double share, double error) {
-  constexpr std::size_t stride = 3 * sizeof(float);
-  Indices triangles(piece.triangles.size());
-  const double kept = std::max(4., std::ceil((1 - share) * static_cast<double>(piece.triangle_count())));
-  const double extent = meshopt_simplifyScale(piece.points.data(), piece.vertex_count(), stride);
-  triangles.resize(meshopt_simplify(
-      triangles.data(), piece.triangles.data(), piece.triangles.size(), piece.points.data(), piece.vertex_count(),
-      stride, 3 * static_cast<std::size_t>(kept), static_cast<float>(error / extent), 0, nullptr));
-  return triangles;
-}
-
-/// Whether a piece is still one closed surface with the holes and the volume that it had.
-bool is_like(const SurfaceMesh& piece, Indices triangles) {
-  constexpr double allowed = 0.02;
-  SurfaceMesh fewer{.points = piece.points, .triangles = std::move(triangles)};
-  drop_unused(fewer);
-  const MeshReport report = inspect(fewer), before = inspect(piece);
-  const double volume = enclosed_volume(piece);
-  return report.closed_manifold() && report.pieces == before.pieces && report.euler == before.euler &&
-         std::abs(enclosed_volume(fewer) - volume) <= allowed * std::abs(volume);
-}
-
-Indices decimated(const SurfaceMesh& piece, double share, double error) {
-  constexpr int tries = 6;
-  for (int k = 0; k < tries; ++k, share /= 1.5, error /= 2) {
-    Indices triangles = simplified(piece, share, error);
-    if (is_like(piece, triangles)) return triangles;
+/// One piece on its way to fewer triangles.
+class Decimation {
+ public:
+  explicit Decimation(SurfaceMesh piece)
+      : piece_(std::move(piece)), report_(inspect(piece_)), volume_(enclosed_volume(piece_)) {
+    held_.resize(piece_.vertex_count(), 0);
   }
-  return piece.triangles;
-}
+
+  /// The triangles that are left.
+  Indices run(double share, double error) {
+    constexpr int tries = 16;
+    for (int k = 0; k < tries; ++k) {
+      SurfaceMesh fewer;
+      fewer.points = piece_.points;
+      fewer.triangles = simplified(share, error);
+      Indices triangles = fewer.triangles;
+      const Indices kept = drop_unused(fewer);
+      const Indices bad = bad_vertices(fewer);
+      if (bad.empty() && is_like(fewer)) return triangles;
+      // Collapses glue sheets together that meet in an edge then. There are few such places: they stay as they are.
+      for (const std::uint32_t v : bad) held_[kept[v]] = 1;
+      if (bad.empty()) {
+        share /= 1.5;
+        error /= 2;
+      } else {
+        hold_neighbours(2 + k);
+      }
+    }
+    return std::move(piece_.triangles);
+  }
+
+ private:
+  /// The triangles with up to `share` of them taken out, but those at vertices that are held.
+  Indices simplified(double share, double error) const {
+    constexpr std::size_t stride = 3 * sizeof(float);
+    Indices same, from;
+    for (std::size_t t = 0; t < piece_.triangles.size(); t += 3) {
+      const std::uint32_t* corners = &piece_.triangles[t];
+      const bool held = (held_[corners[0]] | held_[corners[1]] | held_[corners[2]]) != 0;
+      Indices& to = held ? same : from;
+      to.insert(to.end(), corners, corners + 3);
+    }
+    const double extent = meshopt_simplifyScale(piece_.points.data(), piece_.vertex_count(), stride);
+    const auto wanted = static_cast<std::size_t>((1 - share) * static_cast<double>(piece_.triangle_count()));
+    const std::size_t target = 3 * wanted > same.size() ? 3 * wanted - same.size() : 0;
+    Indices left(from.size());
+    left.resize(meshopt_simplify(left.data(), from.data(), from.size(), piece_.points.data(), piece_.vertex_count(),
+                                 stride, target, static_cast<float>(error / extent), meshopt_SimplifyLockBorder,
+                                 nullptr));
+    left.insert(left.end(), same.begin(), same.end());
+    return left;
+  }
+
+  /// Whether a surface without bad vertices has the holes and the volume of the piece.
+  bool is_like(const SurfaceMesh& fewer) const {
+    constexpr double allowed = 0.02;
+    const MeshReport report = inspect(fewer);
+    return report.closed_manifold() && report.pieces == report_.pieces && report.euler == report_.euler &&
+           std::abs(enclosed_volume(fewer) - volume_) <= allowed * std::abs(volume_);
+  }
+
+  void hold_neighbours(int rings) {
+    for (int ring = 0; ring < rings; ++ring) {
+      const std::vector<char> before = held_;
+      for (std::size_t t = 0; t < piece_.triangles.size(); t += 3) {
+        const std::uint32_t* corners = &piece_.triangles[t];
+        if ((before[corners[0]] | before[corners[1]] | before[corners[2]]) == 0) continue;
+        for (int c = 0; c < 3; ++c) held_[corners[c]] = 1;
+      }
+    }
+  }
+
+  SurfaceMesh piece_;
+  const MeshReport report_;
+  const double volume_;
+  std::vector<char> held_;
+};
 
 }  // namespace
 
@@ -155,7 +201,7 @@ void decimate(SurfaceMesh& mesh, double share, double error) {
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::ptrdiff_t k = 0; k < count; ++k) {
     const auto p = static_cast<std::size_t>(k);
-    fewer[p] = decimated(pieces.at(p), share, error);
+    fewer[p] = Decimation(pieces.at(p)).run(share, error);
   }
   Indices triangles;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
