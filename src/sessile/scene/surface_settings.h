@@ -77,6 +77,8 @@ struct SurfaceSettings {
   double cube_size = 0.75;
   int smoothing = 10;
   int normal_smoothing = 2;
+  double decimation = 0;
+  double decimation_error = 0.1;
 
   static constexpr auto fields() {
     using T = SurfaceSettings;
@@ -87,6 +89,11 @@ struct SurfaceSettings {
               "turns of smoothing that leave the volume: each moves vertices to the mean of their neighbours and back"),
         field(&T::normal_smoothing, "normal_smoothing", "", between(0, 1000),
               "turns of smoothing of the normals alone"),
+        field(&T::decimation, "decimation", "", between(0, 0.99),
+              "share of the triangles to take out (0: none; 0.9 leaves a tenth)"),
+        field(&T::decimation_error, "decimation_error", "", positive,
+              "how far the surface may move by that over the particle radius; fewer triangles go where it would be "
+              "farther"),
     };
   }
 };

@@ -43,7 +43,7 @@ class Tuner {
 
  private:
   template <class T>
-  void value(const std::string& path, T& into, const T& from) {
+  void value(const std::string& path, T& into, const T& from) {  // NOLINT(bugprone-branch-clone): kinds of a parameter
     if (may_change_between_steps(path)) {
       into = from;
     } else if constexpr (is_optional<T>) {

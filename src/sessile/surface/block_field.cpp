@@ -68,7 +68,7 @@ void visit_rows(const Blob& blob, const Vec3<float>& center, float cube, const A
         const float dx = static_cast<float>(x) - center.x;
         q2[static_cast<std::size_t>(x)] = rest + dx * (2 * half + xx * dx);
       }
-      add(static_cast<std::size_t>(block_edge * (block_edge * z + y)), q2);
+      add(point_index(0, y, z), q2);
     }
   }
 }
@@ -110,8 +110,8 @@ BlockField mean_distance_field(const BlockMap& map, const Blobs& blobs, float ra
       map, blobs, [](std::size_t, Sums& sums) { sums = {}; },
       [&](std::size_t, Sums& sums, std::size_t i, const Vec3<float>& center) {
         visit_rows(blobs.blobs[i], center, cube, [&](std::size_t row, const std::array<float, block_edge>& q2) {
-          const float dy = static_cast<float>(row / block_edge % block_edge) - center.y;
-          const float dz = static_cast<float>(row / (block_edge * block_edge)) - center.z;
+          const std::size_t y = row / block_edge % block_edge, z = row / (block_edge * block_edge);
+          const float dy = static_cast<float>(y) - center.y, dz = static_cast<float>(z) - center.z;
           for (std::size_t x = 0; x < block_edge; ++x) {
             const float near = greater(1 - q2[x], 0), k = near * near * near;
             sums.weight.at[row + x] += k;

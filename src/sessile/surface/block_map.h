@@ -14,10 +14,16 @@ namespace sessile {
 inline constexpr int block_edge = 8;  ///< points along a block's edge
 inline constexpr int block_points = block_edge * block_edge * block_edge;
 
+/// Where a block keeps a point: x runs fastest.
+constexpr std::size_t point_index(int x, int y, int z) {
+  const int index = block_edge * (block_edge * z + y) + x;
+  return static_cast<std::size_t>(index);
+}
+
 /// A block's place in the grid of blocks; blocks are in the order of z, then y, then x.
 struct BlockPlace {
   std::int64_t z = 0, y = 0, x = 0;
-  auto operator<=>(const BlockPlace&) const = default;
+  auto operator<=>(const BlockPlace&) const = default;  // NOLINT(modernize-use-nullptr): it sees a 0 in there
 };
 
 /// The blocks that hold every point that a blob reaches and every neighbour of such a point, and the blobs in cells

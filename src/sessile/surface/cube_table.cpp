@@ -102,7 +102,7 @@ class Triangulation {
   void write(CubeCase& to, std::size_t i, std::size_t j) const {
     if (j - i < 2) return;
     const std::size_t k = apex_[i * n_ + j];
-    auto at = static_cast<std::size_t>(3 * to.triangles++);
+    std::size_t at = 3 * static_cast<std::size_t>(to.triangles++);
     for (const std::size_t corner : {i, k, j}) to.edges.at(at++) = static_cast<std::uint8_t>(polygon_[corner]);
     write(to, i, k);
     write(to, k, j);

@@ -40,9 +40,9 @@ Axes axes_of(const Symmetric& m) {
         const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
         const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
         const double c = 1 / std::hypot(t, 1.0), s = t * c;
-        for (int k = 0; k < 3; ++k) {
-          const double ap = a[k][p], aq = a[k][q];
-          a[k][p] = c * ap - s * aq, a[k][q] = s * ap + c * aq;
+        for (auto& row : a) {
+          const double ap = row[p], aq = row[q];
+          row[p] = c * ap - s * aq, row[q] = s * ap + c * aq;
         }
         for (int k = 0; k < 3; ++k) {
           const double ap = a[p][k], aq = a[q][k], vp = v[k][p], vq = v[k][q];

@@ -83,12 +83,20 @@ std::size_t count_pieces(const SurfaceMesh& mesh) {
 
 }  // namespace
 
+std::vector<std::uint32_t> bad_vertices(const SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> bad;
+  const Links links(mesh);
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (!links.ring(v)) bad.push_back(v);
+  }
+  return bad;
+}
+
 MeshReport inspect(const SurfaceMesh& mesh) {
   MeshReport report;
   const auto edges = directed_edges(mesh);
   report.bad_edges = count_bad_edges(edges);
-  const Links links(mesh);
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) report.bad_vertices += !links.ring(v);
+  report.bad_vertices = bad_vertices(mesh).size();
   const auto count_infinite = [](const std::vector<float>& numbers) {
     return static_cast<std::size_t>(
         std::count_if(numbers.begin(), numbers.end(), [](float x) { return !std::isfinite(x); }));

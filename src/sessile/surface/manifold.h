@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "sessile/surface/surface_mesh.h"
 
@@ -19,5 +21,8 @@ struct MeshReport {
 
 /// Looks at every edge and vertex.
 MeshReport inspect(const SurfaceMesh& mesh);
+
+/// The vertices that MeshReport::bad_vertices counts; the ends of bad edges are among them.
+std::vector<std::uint32_t> bad_vertices(const SurfaceMesh& mesh);
 
 }  // namespace sessile

@@ -134,8 +134,7 @@ class Marcher {
   }
 
   float value(std::int32_t block, int x, int y, int z) const {
-    return field_.blocks[static_cast<std::size_t>(block)]
-        .at[static_cast<std::size_t>(block_edge * (block_edge * z + y) + x)];
+    return field_.blocks[static_cast<std::size_t>(block)].at[point_index(x, y, z)];
   }
 
   void place_vertices(std::size_t b) {

@@ -4,6 +4,7 @@
 
 #include "sessile/surface/blobs_of.h"
 #include "sessile/surface/carry.h"
+#include "sessile/surface/decimate.h"
 #include "sessile/surface/march.h"
 #include "sessile/surface/smooth.h"
 
@@ -36,6 +37,7 @@ SurfaceMesh reconstruct(const Snapshot& particles, double spacing, const Surface
         std::visit([&](const auto& method) { return field_of(method, map, blobs, cloud.radius); }, settings.method),
         cloud.unit);
     smooth(mesh, settings.smoothing, settings.normal_smoothing);
+    decimate(mesh, settings.decimation, settings.decimation_error * spacing / 2);
     mesh.columns = carry_columns(particles, cloud, mesh);
   }
   mesh.time = particles.time;
