@@ -43,10 +43,10 @@ class Tuner {
 
  private:
   template <class T>
-  void value(const std::string& path, T& into, const T& from) {  // NOLINT(bugprone-branch-clone): kinds of a parameter
+  void value(const std::string& path, T& into, const T& from) {
     if (may_change_between_steps(path)) {
       into = from;
-    } else if constexpr (is_optional<T>) {
+    } else if constexpr (is_optional<T>) {  // NOLINT(bugprone-branch-clone): kinds of a parameter
       if (into && from) value(path, *into, *from);
     } else if constexpr (is_list<T>) {
       if (into.size() != from.size()) return;
