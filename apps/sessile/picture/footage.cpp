@@ -20,6 +20,11 @@ constexpr std::size_t samples = 16;
 
 bool wants_surface(const PictureOptions& options) { return options.look == draw::Look::surface; }
 
+/// Those that the scene's own surfaces have; the usual ones without any.
+SurfaceSettings surface_settings(const Scene& scene) {
+  return scene.output.surface ? SurfaceSettings(*scene.output.surface) : SurfaceSettings();
+}
+
 /// Time of each frame that a run of the scene would write.
 std::vector<double> frame_times(const Scene& scene) {
   const double interval = scene.output.frame_interval, end = scene.time.end;
@@ -80,7 +85,9 @@ ResolvedScene scene_of(const PictureOptions& options) {
 
 draw::Moment state_of(const Simulation& simulation, const PictureOptions& options, const draw::Stage& stage) {
   draw::Moment moment = moment_of(simulation, options.field, stage);
-  if (wants_surface(options)) moment.surface = reconstruct(take_snapshot(simulation, {}), stage.spacing, {});
+  if (wants_surface(options)) {
+    moment.surface = reconstruct(take_snapshot(simulation, {}), stage.spacing, surface_settings(simulation.scene()));
+  }
   return moment;
 }
 
@@ -98,7 +105,7 @@ FolderFootage::FolderFootage(const PictureOptions& options)
 draw::Moment FolderFootage::read(const ResultFrame& frame, bool with_surface) const {
   const Snapshot snapshot = read_frame(frame.file);
   draw::Moment moment = moment_of(snapshot, options_.field, stage_);
-  if (with_surface) moment.surface = reconstruct(snapshot, stage_.spacing, {});
+  if (with_surface) moment.surface = reconstruct(snapshot, stage_.spacing, surface_settings(results_.scene));
   return moment;
 }
 
