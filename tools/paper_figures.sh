@@ -3,7 +3,7 @@
 #
 #   tools/paper_figures.sh [DIR]      results go to DIR (build/paper), pictures to docs/paper/fig3.png and fig4.png
 #
-# SESSILE names another program than build/release/bin/sessile, SAMPLES other than 64 rays for each pixel. What is computed
+# SESSILE names another program than build/release/bin/sessile, SAMPLES other than 40 rays for each pixel. What is computed
 # and rendered already is not done again.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
@@ -28,7 +28,7 @@ figure() {
     local results=$work/$name/$method
     step "Mesh $name, $method" "paper-$name-$method-mesh.log" "$sessile" mesh "$results" --frames "$places"
     step "Render $name, $method" "paper-$name-$method-render.log" \
-      "$sessile" render "$results" --no-video --size "$size" --samples "${SAMPLES:-64}" ${THREADS:+--threads "$THREADS"} "$@"
+      "$sessile" render "$results" --no-video --size "$size" --samples "${SAMPLES:-40}" ${THREADS:+--threads "$THREADS"} "$@"
   done
   step "Join $name" "paper-$name-join.log" join "$name"
 }

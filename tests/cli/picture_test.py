@@ -165,6 +165,8 @@ class Picture(CliTest):
             ("nowhere", "-o", "a.png"): "nowhere",
             ("out",): "name the file to write: -o FILE.png, or --video FILE.mp4",
             ("out", "-o", "a.png", "--video", "v.mp4"): "not both",
+            ("out", "-o", "a.jpg"): "pictures are PNG: name a file .png, found a.jpg",
+            ("out", "--video", "v.avi"): "videos are MP4: name a file .mp4, found v.avi",
             ("out", "-o", "a.png", "--field", "sped"): 'there is no field "sped" (did you mean "speed"?)',
             ("s.json", "-o", "a.png", "--field", "colour"): 'there is no field "colour"',
             ("out", "-o", "a.png", "--frame", "9"): "there is no frame 9: there are 5",

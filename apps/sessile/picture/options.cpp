@@ -170,6 +170,11 @@ std::string clash(const PictureOptions& options) {
   if (options.picture.empty() && options.video.empty())
     return "name the file to write: -o FILE.png, or --video FILE.mp4";
   if (!options.picture.empty() && !options.video.empty()) return "give -o or --video, not both";
+  const auto ends_in = [](const std::string& file, std::string_view ending) {
+    return file.empty() || std::filesystem::path(file).extension() == ending;
+  };
+  if (!ends_in(options.picture, ".png")) return "pictures are PNG: name a file .png, found " + options.picture;
+  if (!ends_in(options.video, ".mp4")) return "videos are MP4: name a file .mp4, found " + options.video;
   const int rays = std::max(options.size.first, options.size.second) * options.fineness;
   if (rays > greatest_rays) {
     return fmt::format("a side of the picture times --fineness must not exceed {}, found {}", greatest_rays, rays);
