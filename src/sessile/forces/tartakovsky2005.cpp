@@ -11,7 +11,8 @@ namespace {
 
 constexpr double k = 1.5 * std::numbers::pi;
 
-/// cos(3 pi r/(2h)) x_ij/r
+/// cos(3 pi r/(2h)) x_ij/r. Cut off at h: a pack's cosine takes another way for all its lanes when one of them is large
+/// or not finite, and in the lanes past the last particle anything may stand. Bits would then depend on old memory.
 struct PairForce {
   Real k_over_h;  // [1/m]
 
@@ -19,7 +20,7 @@ struct PairForce {
 
   template <class T>
   Vec3<T> operator()(const Separation<T>& pair) const {
-    return cos(T(k_over_h) * pair.r) * unit_vector(pair);
+    return cos(min(T(k_over_h) * pair.r, T(static_cast<Real>(k)))) * unit_vector(pair);
   }
 };
 
