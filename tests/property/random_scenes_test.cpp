@@ -64,9 +64,10 @@ Outcome run_with(int threads, const Scene& scene, unsigned seed) {
       if (std::getenv("SESSILE_SEEDS_TALK") != nullptr) {
         const Totals& t = simulation.totals();
         fmt::print(
-            "seed {} n {} dx {:.2g} momentum {:.2g} energy {:.2g} move {:.2g} work {:.2g} density {:.2g} lost {} "
+            "seed {} {} n {} dx {:.2g} momentum {:.2g} energy {:.2g} move {:.2g} work {:.2g} density {:.2g} lost {} "
             "unconverged {}/{} out {} emitted {} threads {}\n",
-            seed, simulation.particles().size(), scene.spacing, ledger.worst_momentum(), ledger.worst_energy(),
+            seed, std::visit([](const auto& solver) { return solver.name; }, scene.pressure),
+            simulation.particles().size(), scene.spacing, ledger.worst_momentum(), ledger.worst_energy(),
             ledger.worst_move(), ledger.worst_work(), ledger.worst_density(), t.lost, t.unconverged_solves, t.solves,
             t.out, t.emitted, threads);
       }
