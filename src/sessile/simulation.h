@@ -15,60 +15,12 @@
 #include "sessile/pressure/solve.h"
 #include "sessile/scene/sampling.h"
 #include "sessile/scene/scene.h"
+#include "sessile/simulation_state.h"
 #include "sessile/walls/walls.h"
 
 namespace sessile {
 
 struct StepView;
-
-/// Wall time [s] spent in each stage since the start. All of a step but a few assignments belongs to some stage.
-struct StageTimes {
-  double neighbors = 0, density = 0, forces = 0, time_step = 0, pressure = 0, integration = 0;
-  std::int64_t clock_reads = 0;  ///< readings of the clock that these took
-
-  double sum() const { return neighbors + density + forces + time_step + pressure + integration; }
-};
-
-/// What the last step did.
-struct StepReport {
-  double dt = 0;  ///< [s]
-  std::string_view
-      bound;  ///< what set dt: cfl, sound, solver, force, viscosity, capillary, growth, dt_max, dt_min, fixed
-  std::string_view overruled;      ///< the stability bound that a fixed dt or dt_min exceeds, or ""
-  int iterations = 0;              ///< of the pressure solve
-  int divergence_iterations = 0;   ///< of the solve that frees the velocities of divergence, if the solver has one
-  bool converged = true;           ///< whether every solve reached its error
-  double predicted_error = 0;      ///< average compression over rest density that the solver predicts
-  double predicted_error_max = 0;  ///< the greatest one
-  double kinetic_energy = 0;       ///< of all particles after it [J]
-};
-
-/// Kinetic energy [J] and where it comes from, since the start: kinetic = start + forces + pressure + emitted - out.
-/// The work of an acceleration a over a step is m a . (v + v')/2 dt, v and v' being the velocities before and after.
-struct EnergyAccount {
-  double start = 0;     ///< kinetic energy at the start
-  double forces = 0;    ///< work of all accelerations but pressure's: gravity, viscosity, tension, adhesion
-  double pressure = 0;  ///< work of pressure; that of an incompressible liquid between walls at rest only takes
-  double emitted = 0;   ///< kinetic energy let in by emitters
-  double out = 0;       ///< kinetic energy that left an open domain
-
-  double kinetic() const { return start + forces + pressure + emitted - out; }
-};
-
-/// Counts since the start.
-struct Totals {
-  std::int64_t steps = 0;
-  std::int64_t iterations = 0;
-  std::int64_t divergence_iterations = 0;
-  std::int64_t solves = 0;  ///< pressure solves, those that free velocities of divergence among them
-  std::int64_t unconverged_solves = 0;
-  std::int64_t overruled_steps = 0;  ///< steps in which a fixed dt or dt_min exceeded a stability bound
-  std::int64_t emitted = 0;          ///< particles let in by emitters
-  std::int64_t waits = 0;            ///< layers that fell due while their place was taken
-  std::int64_t out = 0;              ///< particles that left an open domain
-  std::int64_t lost = 0;             ///< passages through a solid; a position that is not finite ends the run
-  EnergyAccount energy{};
-};
 
 /// A liquid in motion: the state of a run and the paper's step.
 ///
@@ -80,6 +32,10 @@ class Simulation {
   /// Throws SceneError (overlaps, fluid inside a solid, nothing to simulate, not enough memory), FileError (meshes).
   explicit Simulation(Scene scene);
 
+  /// Goes on from a state() with the scene it was taken from, bit for bit on the same instruction set.
+  /// Throws as above, and SceneError when the state cannot be one of this scene.
+  Simulation(Scene scene, SimulationState state);
+
   /// One step of Algorithm 1. Throws RunError when a particle's position is no longer finite.
   void step();
 
@@ -87,6 +43,9 @@ class Simulation {
   /// as if it had not been called. A speed of sound that was found at the start stays unless one is given.
   /// Throws SceneError, and changes nothing, when the scene is faulty or differs in another parameter.
   void retune(Scene scene);
+
+  /// All that the scene does not tell, copied between two steps.
+  SimulationState state() const;
 
   const Scene& scene() const { return scene_; }
   double time() const { return time_; }  ///< [s]
@@ -115,6 +74,8 @@ class Simulation {
   StepView view() const;
 
  private:
+  void set_up_surroundings();
+  void fill_bodies();
   void look_around();
   void find_normals();
   void free_velocities_of_divergence(double dt);
