@@ -14,7 +14,7 @@ class Results(CliTest):
 
     def test_writes_these_files_and_no_others(self):
         frames = [f"frame_{k:06d}.{kind}" for k in range(5) for kind in ("ply", "vtp")]
-        self.assertEqual(self.names(), frames + ["frames.pvd", "scene.json", "solids.ply", "solids.vtp", "stats.csv", "summary.json"])
+        self.assertEqual(self.names(), ["checkpoints"] + frames + ["frames.pvd", "scene.json", "solids.ply", "solids.vtp", "stats.csv", "summary.json"])
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["out", "s.json"])
 
     def test_frames_hold_the_particles(self):
