@@ -4,6 +4,7 @@
     tools/soak.py -o soak                       200 000 steps each
     tools/soak.py -o soak --steps 2000          the short form
     tools/soak.py -o soak --only tablet         one of the two
+    tools/soak.py -o soak --judge               the table once more, from what lies there
 
 `spill` (scenes/soak/spill.json) lets liquid in and out all the time: its memory must stay flat, its count must balance in
 every line of stats.csv, its ids must be distinct, its files readable. `tablet` (scenes/tablet.json) comes to rest after 5 s:
@@ -148,14 +149,19 @@ def check_files(options, folder, rows, checks):
             faults.append(str(fault))
             continue
         frames.append((step, particles))
-        row = counts.get(step)
-        if row is None or int(row["particles"]) != len(particles):
+        row = counts.get(step)  # the two schedules may round apart: then there is nothing to compare with
+        if row is None:
+            continue
+        if int(row["particles"]) != len(particles):
             faults.append(f"{path.name}: {len(particles)} particles, not what stats.csv has at step {step}")
         elif particles and max(particles) >= start + int(row["emitted"]):
             faults.append(f"{path.name}: the id {max(particles)} was never given out")
     summary = json.loads((folder / "summary.json").read_text())
     if len(frames) != summary["frames"] or len(list(folder.glob("frame_*.vtp"))) != summary["frames"]:
         faults.append(f"{len(frames)} frames can be read of {summary['frames']}")
+    compared = sum(step in counts for step, _ in frames)
+    if compared < 0.9 * len(frames):
+        faults.append(f"only {compared} of {len(frames)} frames have a line of stats.csv")
     last = max(0, summary["frames"] - 2)
     for arguments in (["check", folder / "scene.json"], ["mesh", folder, "--frames", f"{last}:", "--progress", "none"]):
         done = subprocess.run([str(options.sessile), *map(str, arguments)], capture_output=True, text=True)
@@ -200,8 +206,12 @@ def soak(options, name, scene, checks):
     folder = options.output / name
     end = STEP * options.steps
     frames = max(4, min(400, options.steps // 200))
-    code, samples = run(options, scene, folder, output_settings(end, frames, 10 * frames))
-    (folder / "memory.csv").write_text("step,bytes\n" + "".join(f"{step},{memory}\n" for step, memory in samples))
+    if options.judge:
+        lines = (folder / "memory.csv").read_text().split()[1:]
+        code, samples = 0, [tuple(map(int, line.split(","))) for line in lines]
+    else:
+        code, samples = run(options, scene, folder, output_settings(end, frames, 10 * frames))
+        (folder / "memory.csv").write_text("step,bytes\n" + "".join(f"{step},{memory}\n" for step, memory in samples))
     rows = stats(folder)
     check_run(options, name, code, samples, rows, folder, checks)
     return rows, check_files(options, folder, rows, checks)
@@ -237,6 +247,7 @@ def main():
     parser.add_argument("--steps", type=int, default=200000, help="of each run (default: %(default)s)")
     parser.add_argument("--only", choices=["spill", "tablet"], help="one of the two")
     parser.add_argument("--sample", type=float, default=1.0, metavar="SECONDS", help="between looks at the memory")
+    parser.add_argument("--judge", action="store_true", help="run nothing, judge what an earlier call left in DIR")
     parser.add_argument("--scenes", type=pathlib.Path, default=root / "scenes", help="folder of the scenes")
     parser.add_argument("--sessile", default="build/release/bin/sessile", help="the program (default: %(default)s)")
     options = parser.parse_args()
