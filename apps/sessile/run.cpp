@@ -8,6 +8,7 @@
 #include "run_options.h"
 #include "say.h"
 #include "session.h"
+#include "signals.h"
 
 namespace sessile::app {
 namespace {
@@ -35,7 +36,7 @@ int run(RunOptions options) {
   const bool early = result.status == RunStatus::interrupted;
   if (early) say(stderr, fmt::format("interrupted; everything up to {:.4g} s is written\n", result.facts.time));
   if (options.progress != "json") print_end(result, options.folder);
-  return early ? interrupted : done;
+  return early ? interrupted_code() : done;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <chrono>
 
+#include "folder_lock.h"
+#include "mesh/surface_folder.h"
 #include "prepare.h"
 #include "recorder.h"
 #include "sessile/scene/describe.h"
@@ -44,10 +46,14 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 SessionResult run_session(const ResolvedScene& resolved, const SessionOptions& options, const StepWatch& watch) {
   const auto start = Clock::now();
   SessionResult result;
+  refuse_if_in_use(options.folder);  // before a set-up that may take long
   Simulation simulation = set_up(resolved, options.scene_file);
   heed_signals();  // only now: until here nothing is written, and a signal may end the program at once
+  const FolderLock lock(options.folder);
+  refuse_if_in_use(options.folder / surface_folder_name);  // by `sessile mesh`: the run takes those surfaces out
   Recorder recorder(options.folder, simulation);
   Progress progress(options.progress, options.name);
+  if (!lock.warning().empty()) progress.warn(lock.warning());
   Warnings warnings;
   RunFacts facts;
   facts.version = version();
@@ -57,6 +63,7 @@ SessionResult run_session(const ResolvedScene& resolved, const SessionOptions& o
       const auto before = Clock::now();
       simulation.step();
       result.stepping += since(before);
+      lock.check();
       recorder.record(simulation);
       warnings.look(simulation, progress);
       progress.update(simulation);
@@ -70,7 +77,7 @@ SessionResult run_session(const ResolvedScene& resolved, const SessionOptions& o
     facts.message = result.message;
     facts.wall_time = since(start);
     try {
-      recorder.finish(simulation, facts);
+      if (lock.in_place()) recorder.finish(simulation, facts);
     } catch (const std::exception&) {
       // The first error is the one to report.
     }

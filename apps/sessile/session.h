@@ -37,8 +37,8 @@ using StepWatch = std::function<std::string(const Simulation&)>;
 
 /// Runs a scene into a folder: frames, stats.csv, summary.json. Ctrl-C ends it after the step at hand; a second one
 /// ends the program at once. What goes wrong in a step, or with the files meanwhile, stands in the result, and what has
-/// been written stays good. Throws SceneError and FileError of what comes before the first step, FileError of what
-/// comes after the last.
+/// been written stays good. Throws SceneError, FolderInUse and FileError of what comes before the first step, FileError
+/// of what comes after the last.
 SessionResult run_session(const ResolvedScene& resolved, const SessionOptions& options, const StepWatch& watch = {});
 
 }  // namespace sessile::app

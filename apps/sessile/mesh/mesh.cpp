@@ -144,13 +144,14 @@ int mesh_folder(const MeshOptions& options) {
 
   heed_signals();
   SurfaceFolder surfaces(folder, results.folder, results.scene, std::move(plan), options.again);
+  if (!surfaces.lock().warning().empty()) say(stderr, "warning: " + surfaces.lock().warning() + "\n");
   surfaces.keep_only(results.frames);
   const std::vector<Due> work = due_of(surfaces, frames);
   const Tally tally = make(surfaces, work, style);
   const bool early = tally.made < work.size();
   if (early) say(stderr, fmt::format("interrupted; {} of {} frames are written\n", tally.made, work.size()));
   if (options.progress != "json") print_end(tally, frames.size() - work.size(), folder.string());
-  return early ? interrupted : done;
+  return early ? interrupted_code() : done;
 }
 
 /// Where a frame's surface goes: frame_000012.vtp becomes surface_000012.ply, spray.vtp becomes spray_surface.ply.

@@ -95,10 +95,10 @@ Vec3d up_of(const Scene& scene) {
 
 SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scene& scene, SurfacePlan plan, bool anew)
     : folder_(std::move(folder)),
+      lock_(folder_),
       plan_(std::move(plan)),
       formats_(formats_named(plan_.formats)),
       solids_(solid_meshes(scene)) {
-  create_output_folder(folder_);
   index_.source = fs::absolute(source).lexically_normal().lexically_proximate(fs::absolute(folder_).lexically_normal());
   index_.spacing = plan_.spacing;
   index_.up = up_of(scene);
@@ -107,8 +107,7 @@ SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scen
   if (!anew && before.same_origin(index_)) {
     index_.frames = std::move(before.frames);
   } else {
-    remove_surfaces(folder_);
-    create_output_folder(folder_);
+    remove_surfaces(folder_);  // not the folder itself: the lock is in it
   }
   write_solids();
   write_index();

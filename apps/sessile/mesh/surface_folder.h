@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "folder_lock.h"
 #include "sessile/output/frames.h"
 #include "sessile/output/surfaces.h"
 #include "sessile/output/usda.h"
@@ -42,7 +43,8 @@ Vec3d up_of(const Scene& scene);
 class SurfaceFolder {
  public:
   /// Makes the folder and writes the solids. Of what lies there already, surfaces of the same particles and settings
-  /// stay listed, unless `anew`; others are removed. `source` is the folder of the particles. Throws FileError.
+  /// stay listed, unless `anew`; others are removed. `source` is the folder of the particles. Throws FileError, and
+  /// FolderInUse while another process writes surfaces there.
   SurfaceFolder(std::filesystem::path folder, const std::filesystem::path& source, const Scene& scene, SurfacePlan plan,
                 bool anew);
 
@@ -61,6 +63,7 @@ class SurfaceFolder {
 
   const SurfacePlan& plan() const { return plan_; }
   const std::filesystem::path& folder() const { return folder_; }
+  const FolderLock& lock() const { return lock_; }
 
  private:
   void write_solids();
@@ -68,6 +71,7 @@ class SurfaceFolder {
   SurfaceEntry& entry(std::int64_t number);
 
   std::filesystem::path folder_;
+  FolderLock lock_;
   SurfacePlan plan_;
   std::vector<const SurfaceFormat*> formats_;
   std::vector<SolidMesh> solids_;
