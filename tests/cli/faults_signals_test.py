@@ -1,4 +1,5 @@
 """Signals: which end a run after the step at hand, which at once, which not at all; and what is left."""
+import shutil
 import time
 
 from frames import read_ply, read_vtp
@@ -9,6 +10,7 @@ ENDLESS = dict(time={"end": 1e4, "fixed_dt": 0.005}, output={"frame_interval": 0
 
 class Signals(CliTest):
     def running(self, before="", faults=None, **scene):
+        shutil.rmtree(self.folder / "out", ignore_errors=True)
         process = self.start("run", self.write(tiny(**{**ENDLESS, **scene})), "-o", "out", "--progress", "none", before=before,
                              faults=faults)
         self.wait_for("out/frame_000003.vtp", process=process)
