@@ -71,7 +71,8 @@ FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
   create_output_folder(folder_);
   directory_ = Descriptor(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   const auto failure = [&](int error) {
-    return FileError(fmt::format("cannot lock the folder {}: {}", folder_.string(), reason(error)));
+    return FileError(fmt::format("cannot lock the folder {}: {}", folder_.string(), reason(error)),
+                     std::error_code(error, std::generic_category()));
   };
   if (!directory_.open()) throw failure(errno);
   for (;;) {
@@ -113,11 +114,13 @@ void FolderLock::check() const {
   const bool removed = ::fstat(directory_.number(), &held) == 0 && held.st_nlink == 0;
   std::error_code unknown;
   const fs::path now = fs::read_symlink(fmt::format("/proc/self/fd/{}", directory_.number()), unknown);
+  const std::error_code gone(ENOENT, std::generic_category());
   if (removed || unknown) {
-    throw FileError(fmt::format("the folder {} has been removed while it was written into", folder_.string()));
+    throw FileError(fmt::format("the folder {} has been removed while it was written into", folder_.string()), gone);
   }
   throw FileError(fmt::format("the folder {} has been renamed while it was written into; what is there is whole: {}",
-                              folder_.string(), now.string()));
+                              folder_.string(), now.string()),
+                  gone);
 }
 
 void refuse_if_in_use(const fs::path& folder) {

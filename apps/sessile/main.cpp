@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "advice.h"
 #include "commands.h"
 #include "folder_lock.h"
 #include "say.h"
@@ -69,13 +69,10 @@ int main(int argc, char** argv) {
     for (const std::string& line : e.messages) app::say(stderr, fmt::format("{}\n", line));
     return app::bad_input;
   } catch (const app::FolderInUse& e) {
-    app::say(stderr, fmt::format("sessile: {}\n", e.what()));
+    app::tell(e);
     return app::folder_in_use;
-  } catch (const std::bad_alloc&) {
-    app::say(stderr, "sessile: out of memory\n");
-    return app::run_failed;
   } catch (const std::exception& e) {
-    app::say(stderr, fmt::format("sessile: {}\n", e.what()));
+    app::tell(e);
     return app::run_failed;
   }
   // What the other commands print is all they are for; these have their files.

@@ -1,15 +1,19 @@
 /// A machine with faults, for LD_PRELOAD: calls of the C library fail, wait or tell the wrong time, as the environment
 /// says. Everything else goes through.
 ///
-///   FAULT_CALL=fsync     which call: write, fsync, rename, flock, pthread_create, clock
+///   FAULT_CALL=fsync     which call: write, fsync, rename, flock, pthread_create, malloc, clock, log
 ///   FAULT_PATH=frame_    of files whose path holds this text only
 ///   FAULT_AFTER=3        so many such calls still go through
-///   FAULT_ERROR=28       and then they fail with this errno
+///   FAULT_COUNT=2        then so many fail; all that follow unless given
+///   FAULT_ERROR=28       with this errno
+///   FAULT_SIZE=4096      of memory, pieces as large as this only [bytes]
 ///   FAULT_HOLD=FILE      or make FILE and wait, for ever
-///   FAULT_NOTE=FILE      the clock of the day jumps at every look; who waits by it is noted in FILE
+///   FAULT_NOTE=FILE      clock: the clock of the day jumps at every look; who waits by it is noted in FILE
+///                        log: nothing fails; what is done with files is noted in FILE
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <sys/syscall.h>
 #include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
@@ -39,13 +43,32 @@ std::atomic<long> seen = 0;
 
 /// Whether this call is one that fails; it then never returns, or sets errno.
 bool fails(const char* call, const char* path) {
-  if (std::strcmp(setting("FAULT_CALL"), call) != 0 || std::strstr(path, setting("FAULT_PATH")) == nullptr) return false;
-  if (++seen <= atol(setting("FAULT_AFTER"))) return false;
+  if (std::strcmp(setting("FAULT_CALL"), call) != 0 || std::strstr(path, setting("FAULT_PATH")) == nullptr)
+    return false;
+  const long number = ++seen, after = atol(setting("FAULT_AFTER")), count = atol(setting("FAULT_COUNT"));
+  if (number <= after || (count > 0 && number > after + count)) return false;
   if (const char* const hold = setting("FAULT_HOLD"); *hold != '\0') {
     close(open(hold, O_WRONLY | O_CREAT, 0600));
     for (;;) pause();
   }
   errno = atoi(setting("FAULT_ERROR"));
+  return true;
+}
+
+/// Settings of memory are read once: whoever reads the environment may ask for memory.
+std::atomic<std::size_t> failing_size = 0;
+std::atomic<long> pieces_left = 0;
+
+[[gnu::constructor]] void read_settings() {
+  if (std::strcmp(setting("FAULT_CALL"), "malloc") != 0) return;
+  pieces_left = atol(setting("FAULT_AFTER"));
+  failing_size = static_cast<std::size_t>(atol(setting("FAULT_SIZE")));
+}
+
+bool no_memory(std::size_t size) {
+  const std::size_t least = failing_size;
+  if (least == 0 || size < least || --pieces_left >= 0) return false;
+  errno = ENOMEM;
   return true;
 }
 
@@ -65,31 +88,55 @@ bool jumps() { return std::strcmp(setting("FAULT_CALL"), "clock") == 0; }
 
 time_t jump() { return ++seen % 2 == 0 ? 3600 : -3600; }
 
-void note(const char* call) {
-  if (!jumps()) return;
-  if (FILE* const file = std::fopen(setting("FAULT_NOTE"), "a")) {
-    std::fprintf(file, "%s\n", call);
-    std::fclose(file);
-  }
+/// Notes what was called, for the tests that ask for this kind of notes.
+void note(const char* kind, const char* call, const char* path = "", const char* to = "") {
+  if (std::strcmp(setting("FAULT_CALL"), kind) != 0) return;
+  char line[9000];
+  const int size = std::snprintf(line, sizeof line, "%s %s %s\n", call, path, to);
+  const int file = open(setting("FAULT_NOTE"), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  if (file >= 0) syscall(SYS_write, file, line, static_cast<size_t>(size));
+  if (file >= 0) close(file);
 }
 
 }  // namespace
 
 extern "C" {
 
+void* __libc_malloc(size_t size);                      // NOLINT: glibc's name
+void* __libc_memalign(size_t alignment, size_t size);  // NOLINT
+
+void* malloc(size_t size) noexcept { return no_memory(size) ? nullptr : __libc_malloc(size); }
+
+void* aligned_alloc(size_t alignment, size_t size) noexcept {
+  return no_memory(size) ? nullptr : __libc_memalign(alignment, size);
+}
+
 ssize_t write(int descriptor, const void* bytes, size_t size) {
   if (fails("write", Path(descriptor).text)) return -1;
+  note("log", "write", Path(descriptor).text);
   return real<ssize_t (*)(int, const void*, size_t)>("write")(descriptor, bytes, size);
 }
 
 int fsync(int descriptor) {
   if (fails("fsync", Path(descriptor).text)) return -1;
+  note("log", "fsync", Path(descriptor).text);
   return real<int (*)(int)>("fsync")(descriptor);
 }
 
 int rename(const char* from, const char* to) noexcept {
   if (fails("rename", to)) return -1;
+  note("log", "rename", from, to);
   return real<int (*)(const char*, const char*)>("rename")(from, to);
+}
+
+int remove(const char* path) noexcept {
+  note("log", "remove", path);
+  return real<int (*)(const char*)>("remove")(path);
+}
+
+int unlink(const char* path) noexcept {
+  note("log", "remove", path);
+  return real<int (*)(const char*)>("unlink")(path);
 }
 
 int flock(int descriptor, int operation) noexcept {
@@ -100,7 +147,7 @@ int flock(int descriptor, int operation) noexcept {
 int pthread_create(pthread_t* thread, const pthread_attr_t* how, void* (*work)(void*), void* with) noexcept {
   if (fails("pthread_create", "")) return errno;
   return real<int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>("pthread_create")(thread, how, work,
-                                                                                                    with);
+                                                                                                     with);
 }
 
 int clock_gettime(clockid_t clock, timespec* now) noexcept {
@@ -116,9 +163,9 @@ int gettimeofday(timeval* now, void* zone) noexcept {
 }
 
 int pthread_cond_timedwait(pthread_cond_t* condition, pthread_mutex_t* mutex, const timespec* until) {
-  note("pthread_cond_timedwait");
+  note("clock", "pthread_cond_timedwait");
   return real<int (*)(pthread_cond_t*, pthread_mutex_t*, const timespec*)>("pthread_cond_timedwait")(condition, mutex,
-                                                                                                    until);
+                                                                                                     until);
 }
 
 }  // extern "C"

@@ -93,13 +93,13 @@ class CliTest(unittest.TestCase):
         self.assertEqual(sorted(self.folder.rglob("*")), before, "a refused call wrote something")
         return err.splitlines()
 
-    def start(self, *arguments, before="", faults=None):
-        """The running program, ended with the test. `before` is shell, `faults` are for faults.cpp."""
+    def start(self, *arguments, before="", faults=None, user=None):
+        """The running program, ended with the test. `before` is shell, `faults` are for faults.cpp, `user` a number."""
         command = [PROGRAM, *map(str, arguments)]
         if before:
             command = ["bash", "-c", before + '; exec "$@"', "bash", *command]
         process = subprocess.Popen(command, cwd=self.folder, env={**self.environment(), **self.loaded(faults)}, text=True,
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                                   user=user, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
@@ -113,4 +113,4 @@ class CliTest(unittest.TestCase):
         return sorted(path.name for path in (self.folder / folder).iterdir())
 
 
-__all__ = ["CliTest", "DONE", "FAILED", "BAD_INPUT", "IN_USE", "INTERRUPTED", "ended_by", "PROGRAM", "VARIANTS", "VERSION", "signal", "tiny", "unittest"]
+__all__ = ["CliTest", "DONE", "FAILED", "BAD_INPUT", "IN_USE", "INTERRUPTED", "ended_by", "PROGRAM", "VARIANTS", "VERSION", "signal", "subprocess", "tiny", "unittest"]

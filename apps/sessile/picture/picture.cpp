@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <filesystem>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "say.h"
 #include "sessile/core/error.h"
 #include "signals.h"
+#include "threads.h"
 
 namespace sessile::app {
 namespace {
@@ -92,7 +92,7 @@ int picture(const PictureOptions& options) {
     say(stderr, fmt::format("sessile: {}\n", reason));
     return bad_input;
   }
-  if (options.threads > 0) omp_set_num_threads(options.threads);
+  use_threads(options.threads);
   std::error_code ignored;
   const bool is_folder = std::filesystem::is_directory(options.source, ignored);
   try {
