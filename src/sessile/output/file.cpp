@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 FileError failure(std::string_view what, const fs::path& path, int error) {
-  return FileError(fmt::format("cannot {} {}: {}", what, path.string(), std::generic_category().message(error)));
+  const std::error_code reason(error, std::generic_category());
+  return FileError(fmt::format("cannot {} {}: {}", what, path.string(), reason.message()), reason);
 }
 
 /// Opens, or returns -1 with errno. Descriptors do not leak into programs that are started meanwhile.
