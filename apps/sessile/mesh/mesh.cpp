@@ -143,7 +143,8 @@ int mesh_folder(const MeshOptions& options) {
   const ProgressStyle style = progress_style(options.progress);
 
   heed_signals();
-  SurfaceFolder surfaces(folder, results.folder, results.scene, std::move(plan), options.again);
+  SurfaceFolder surfaces(folder, results.folder, results.scene, std::move(plan),
+                         options.again ? std::optional<std::size_t>(0) : std::nullopt);
   surfaces.keep_only(results.frames);
   const std::vector<Due> work = due_of(surfaces, frames);
   const Tally tally = make(surfaces, work, style);

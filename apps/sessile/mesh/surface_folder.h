@@ -42,9 +42,10 @@ Vec3d up_of(const Scene& scene);
 class SurfaceFolder {
  public:
   /// Makes the folder and writes the solids. Of what lies there already, surfaces of the same particles and settings
-  /// stay listed, unless `anew`; others are removed. `source` is the folder of the particles. Throws FileError.
+  /// stay listed, the first `keep` of them; others are removed. `source` is the folder of the particles.
+  /// Throws FileError, also when fewer than `keep` are there.
   SurfaceFolder(std::filesystem::path folder, const std::filesystem::path& source, const Scene& scene, SurfacePlan plan,
-                bool anew);
+                std::optional<std::size_t> keep);
 
   /// Frees the list of frames that are no longer among the source's.
   void keep_only(const std::vector<ResultFrame>& frames);
@@ -63,6 +64,7 @@ class SurfaceFolder {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  void keep_first(std::size_t count);
   void write_solids();
   void write_index() const;
   SurfaceEntry& entry(std::int64_t number);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -25,6 +26,10 @@ class LineFile {
  public:
   /// Opens `path` anew and empty. Throws FileError.
   explicit LineFile(std::filesystem::path path);
+
+  /// Opens `path` as it is and takes back what follows its first `keep` bytes.
+  /// Throws FileError, also when it is not as long as that.
+  LineFile(std::filesystem::path path, std::uint64_t keep);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
@@ -33,9 +38,14 @@ class LineFile {
   /// Throws FileError when it could not be written in full; the part that was is taken back.
   void append(std::string_view line);
 
+  /// Asks the disk to keep what has been appended. Throws FileError.
+  void sync() const;
+  std::uint64_t size() const { return size_; }  ///< [bytes]
+
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;
+  std::uint64_t size_ = 0;
 };
 
 }  // namespace sessile

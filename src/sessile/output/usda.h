@@ -22,6 +22,10 @@ class UsdaWriter {
   /// `frames_per_second` of simulated time: a time code is a frame. Throws FileError.
   UsdaWriter(std::filesystem::path file, double frames_per_second);
 
+  /// Goes on with the first `count` frames, the last of them of time `until` [s], of a writer of the same file that has
+  /// finished or was killed. Throws FileError when they are not there.
+  UsdaWriter(std::filesystem::path file, double frames_per_second, std::size_t count, double until);
+
   /// Takes back what has not been joined.
   ~UsdaWriter();
   UsdaWriter(UsdaWriter&&) = delete;
@@ -41,6 +45,10 @@ class UsdaWriter {
     std::unique_ptr<LineFile> samples;
   };
 
+  std::filesystem::path part_of(std::size_t attribute) const;
+  Attribute& attribute(std::string_view type_and_name, std::string_view brackets);
+  std::size_t take_from_file(double until);
+  std::size_t take_from_parts(double until);
   void sample(std::string_view type_and_name, std::string_view brackets, const std::string& value);
   void column(const Column& column);
 

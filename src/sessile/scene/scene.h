@@ -192,6 +192,23 @@ struct SurfaceOutput : SurfaceSettings {
   }
 };
 
+/// What a run can be resumed from, written while it goes on.
+struct CheckpointOutput {
+  int keep = 2;
+  double minutes = 10;
+  std::optional<double> interval;
+
+  static constexpr auto fields() {
+    using T = CheckpointOutput;
+    return std::tuple{
+        field(&T::keep, "keep", "", between(0, 1000000), "how many of the newest are kept; 0 for no checkpoints"),
+        field(&T::minutes, "minutes", "min", positive, "wall time between checkpoints; there is one at the end too"),
+        derived(field(&T::interval, "interval", "s", positive, "simulated time between checkpoints"),
+                "by wall time alone"),
+    };
+  }
+};
+
 /// What a run writes.
 struct Output {
   double frame_interval = 0.04;
@@ -199,6 +216,7 @@ struct Output {
   std::vector<std::string> formats{"vtp"};
   std::vector<std::string> columns{"id", "velocity", "density", "pressure"};
   std::optional<SurfaceOutput> surface;
+  CheckpointOutput checkpoint{};
 
   static constexpr auto fields() {
     using T = Output;
@@ -211,6 +229,7 @@ struct Output {
         field(&T::columns, "fields", "per-particle fields of a frame; see `sessile models`"),
         derived(field(&T::surface, "surface", "surfaces of the liquid, in the folder surface"),
                 "none; `sessile mesh` makes them from frames"),
+        field(&T::checkpoint, "checkpoint", "what the run can be resumed from, in the folder checkpoints"),
     };
   }
 };
