@@ -39,8 +39,7 @@ void read_checkpoint(std::string_view bytes) {
   std::memcpy(head.data(), &format, 4);
   std::memcpy(head.data() + 4, &real_bytes, 4);
   std::memcpy(head.data() + 8, &length, 8);
-  const std::uint64_t sum =
-      XXH3_64bits_withSeed(packed.data(), packed.size(), XXH3_64bits(head.data(), head.size()));
+  const std::uint64_t sum = XXH3_64bits_withSeed(packed.data(), packed.size(), XXH3_64bits(head.data(), head.size()));
   std::memcpy(head.data() + 16, &sum, 8);
   use(decode_checkpoint("SESSILE\n" + std::string(head.data(), head.size()) + packed, "checkpoint", most));
 }

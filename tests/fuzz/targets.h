@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
-/// The readers of files as fuzzers see them. Each takes any bytes as the content of a file, may throw sessile::Error and
-/// nothing else, and ends the program where what was read contradicts what the reader promises.
+/// The readers of files as fuzzers see them. Each takes any bytes as the content of a file, may throw sessile::Error
+/// and nothing else, and ends the program where what was read contradicts what the reader promises.
 namespace sessile::fuzz {
 
 void read_scene_json(std::string_view bytes);
