@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <numbers>
@@ -22,6 +23,8 @@ template <class Inside>
 std::vector<Vec3d> lattice(const Vec3d& centre, const Vec3d& size, double spacing, const std::string& who,
                            Inside&& inside) {
   const std::array<double, 3> counts{steps_in(size.x, spacing), steps_in(size.y, spacing), steps_in(size.z, spacing)};
+  // None along one axis are none at all, however many the others would hold.
+  if (std::min({counts[0], counts[1], counts[2]}) < 1) return {};
   check_count(counts[0] * counts[1] * counts[2], who);
   const auto nx = static_cast<std::int64_t>(counts[0]), ny = static_cast<std::int64_t>(counts[1]),
              nz = static_cast<std::int64_t>(counts[2]);
