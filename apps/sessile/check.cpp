@@ -2,8 +2,12 @@
 
 #include "commands.h"
 #include "prepare.h"
+#include "progress.h"
 #include "say.h"
+#include "sessile/checkpoint/checkpoint.h"
+#include "sessile/core/error.h"
 #include "sessile/scene/describe.h"
+#include "session_state.h"
 
 namespace sessile::app {
 namespace {
@@ -32,7 +36,40 @@ std::string derived(const Simulation& simulation) {
   return text;
 }
 
+/// What is in a checkpoint, and that it is whole.
+void check_checkpoint(const CheckOptions& options) {
+  if (!options.overrides.empty()) throw CLI::ValidationError("--set", "is for scenes; this is a checkpoint");
+  const Checkpoint checkpoint = read_checkpoint(options.scene);
+  if (options.json) {
+    say(stdout, checkpoint.scene_json + "\n");
+    return;
+  }
+  const Scene scene = read_resolved_text(checkpoint.scene_json, options.scene).scene;
+  const SimulationState& state = checkpoint.state;
+  const Totals& totals = state.totals;
+  std::string text = fmt::format("{}: a whole checkpoint, of format {}\n", options.scene, checkpoint_format);
+  if (!scene.title.empty()) text += fmt::format("  scene           {}\n", scene.title);
+  text += fmt::format("  written by      version {}, with steps for {}\n", checkpoint.version, checkpoint.isa);
+  text += fmt::format("  simulated time  {:.6g} of {:g} s, after {} steps; the last one {:.3g} s ({})\n", state.time,
+                      scene.time.end, totals.steps, state.last_step.dt, state.last_step.bound);
+  text += fmt::format("  particles       {}; {} let in, {} out, {} lost\n", state.particles.size(), totals.emitted,
+                      totals.out, totals.lost);
+  try {
+    const SessionState session = session_of(checkpoint.session);
+    text += fmt::format("  results         {} frames, {} surfaces, {} bytes of stats.csv, {} of wall time\n",
+                        session.frame_times.size(), session.surface_times.size(), session.stats_bytes,
+                        duration_text(session.wall_time));
+  } catch (const Error&) {
+    text += "  results         none: no run wrote it\n";
+  }
+  say(stdout, text);
+}
+
 void check(const CheckOptions& options) {
+  if (is_checkpoint(options.scene)) {
+    check_checkpoint(options);
+    return;
+  }
   const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
   const Simulation simulation = set_up(resolved, options.scene);
   if (options.json) {
@@ -46,8 +83,9 @@ void check(const CheckOptions& options) {
 
 void add_check(CLI::App& program, int&) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = program.add_subcommand("check", "Validate a scene and print every parameter as it would run.");
-  command->add_option("scene", options->scene, "scene file")->required()->type_name("SCENE");
+  CLI::App* command = program.add_subcommand(
+      "check", "Validate a scene and print every parameter as it would run, or describe a checkpoint.");
+  command->add_option("scene", options->scene, "scene file, or a checkpoint")->required()->type_name("SCENE");
   command->add_option("--set", options->overrides, "put a value over the scene's, e.g. time.end=2")
       ->type_name("PATH=VALUE")
       ->expected(1)

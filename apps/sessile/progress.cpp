@@ -35,6 +35,9 @@ ProgressStyle progress_style(const std::string& word) {
   return isatty(STDERR_FILENO) ? ProgressStyle::terminal : ProgressStyle::plain;
 }
 
+Progress::Progress(ProgressStyle style, std::string run, const Simulation& simulation)
+    : style_(style), run_(std::move(run)), first_time_(simulation.time()), first_step_(simulation.totals().steps) {}
+
 void Progress::update(const Simulation& simulation) {
   if (style_ == ProgressStyle::none) return;
   const std::chrono::duration<double> pause = Clock::now() - shown_;
@@ -47,9 +50,9 @@ void Progress::show(const Simulation& simulation) {
   const double wall = std::chrono::duration<double>(shown_ - start_).count();
   const double end = simulation.scene().time.end, time = simulation.time();
   const double share = std::min(1.0, time / end);
-  const auto steps = static_cast<double>(simulation.totals().steps);
+  const auto steps = static_cast<double>(simulation.totals().steps - first_step_);
   const double rate = wall > 0 ? steps / wall : 0;
-  const double left = share > 0 ? wall * (1 - share) / share : 0;
+  const double left = time > first_time_ ? wall * std::max(0.0, end - time) / (time - first_time_) : 0;
   const StepReport& last = simulation.last_step();
   if (style_ == ProgressStyle::json) {
     Json::Value line;

@@ -22,7 +22,7 @@ std::string duration_text(double seconds);
 class Progress {
  public:
   /// `run` names the run where a program makes several.
-  explicit Progress(ProgressStyle style, std::string run = {}) : style_(style), run_(std::move(run)) {}
+  Progress(ProgressStyle style, std::string run, const Simulation& simulation);
   ~Progress() { finish(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -45,6 +45,8 @@ class Progress {
   std::string run_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_ = start_;
+  double first_time_;  // from where this run goes on [s]
+  std::int64_t first_step_;
   bool line_open_ = false;
 };
 

@@ -3,11 +3,9 @@
 #include <chrono>
 #include <exception>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <system_error>
 #include <vector>
 
+#include "result_folder.h"
 #include "sessile/core/error.h"
 #include "sessile/measure/diagnostics.h"
 #include "sessile/output/file.h"
@@ -25,50 +23,52 @@ double seconds_of(F&& f) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Whether a file is of an earlier run, or half a one that a killed run left behind.
-bool is_result(std::string name) {
-  constexpr std::string_view part = ".part";
-  if (name.starts_with('.') && name.ends_with(part)) name = name.substr(1, name.size() - 1 - part.size());
-  if (name == "frames.pvd" || name == "scene.json" || name == "summary.json") return true;
-  const auto dot = name.rfind('.');
-  const bool known = dot != std::string::npos && find_frame_format(name.substr(dot + 1)) != nullptr;
-  return known && (name.starts_with("frame_") || name.starts_with("solids."));
-}
-
 bool asks_for_area(const Scene& scene) { return scene.output.surface && scene.output.surface->stats; }
 
-/// Makes the folder, and takes out the results of an earlier run into it: left beside fewer new ones they would pass
-/// for theirs. stats.csv is begun anew in any case.
-const std::filesystem::path& prepared(const std::filesystem::path& folder) {
-  create_output_folder(folder);
-  remove_surfaces(folder / surface_folder_name);
-  std::vector<std::filesystem::path> old;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (is_result(entry.path().filename().string())) old.push_back(entry.path());
-  }
-  for (const auto& file : old) {
-    std::error_code error;
-    if (!std::filesystem::remove(file, error) && error) {
-      throw FileError(file.string() + ": cannot remove this result of an earlier run: " + error.message());
-    }
-  }
-  return folder;
+/// stats.csv, new or as long as it was.
+StatsWriter stats_of(const std::filesystem::path& folder, const Simulation& simulation,
+                     const std::optional<SessionState>& before) {
+  const auto file = folder / "stats.csv";
+  if (before) return {file, Keep{before->stats_bytes}};
+  return {file, simulation.walls().labels, asks_for_area(simulation.scene())};
 }
 
 }  // namespace
 
-Recorder::Recorder(const std::filesystem::path& folder, const Simulation& simulation)
-    : folder_(prepared(folder)),
-      frames_(folder, simulation.scene().output.formats),
-      stats_(folder / "stats.csv", simulation.walls().labels, asks_for_area(simulation.scene())),
-      surfaces_(folder, simulation.scene()),
-      frame_schedule_(simulation.scene().output.frame_interval),
-      stats_schedule_(
-          simulation.scene().output.stats_interval.value_or(0.1 * simulation.scene().output.frame_interval)) {
+Recorder::Recorder(const std::filesystem::path& folder, const Simulation& simulation,
+                   const std::optional<SessionState>& before)
+    : folder_(before ? rewound_folder(folder, *before) : fresh_folder(folder)),
+      frames_(folder, simulation.scene().output.formats, before ? before->frame_times : std::vector<double>{}),
+      stats_(stats_of(folder, simulation, before)),
+      surfaces_(folder, simulation.scene(), before ? before->surface_times : std::vector<double>{}),
+      frame_schedule_(simulation.scene().output.frame_interval, before ? before->frame_due : std::nullopt),
+      stats_schedule_(simulation.scene().output.stats_interval.value_or(0.1 * simulation.scene().output.frame_interval),
+                      before ? before->stats_time : std::nullopt) {
   // At the start already, so that the results of a run that goes on, or was killed, can be opened.
   write_whole(folder_ / "scene.json", to_json(simulation.scene()));
+  if (before) {
+    output_seconds_ = before->output_time;
+    measure_seconds_ = before->measures_time;
+    writer_seconds_before_ = before->writer_time;
+    return;
+  }
   output_seconds_ += seconds_of([&] { frames_.write_solids(take_solids(simulation.walls())); });
   record(simulation);
+}
+
+SessionState Recorder::settle() {
+  SessionState state;
+  output_seconds_ += seconds_of([&] {
+    state.frame_times = frames_.settle();
+    state.surface_times = surfaces_.times();
+    state.stats_bytes = stats_.settle();
+  });
+  state.stats_time = stats_schedule_.last();
+  state.frame_due = frame_schedule_.last();
+  state.output_time = output_seconds_;
+  state.measures_time = measure_seconds_;
+  state.writer_time = writer_seconds_before_ + frames_.seconds();
+  return state;
 }
 
 void Recorder::record(const Simulation& simulation) {
@@ -117,7 +117,7 @@ void Recorder::finish(const Simulation& simulation, RunFacts facts) {
   facts.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   facts.output_time = output_seconds_;
   facts.measures_time = measure_seconds_;
-  facts.writer_time = frames_.seconds();
+  facts.writer_time = writer_seconds_before_ + frames_.seconds();
   facts.frames = frames_.frames_written();
   if (first_error) {
     try {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 namespace sessile::app {
 
@@ -9,6 +10,11 @@ class Schedule {
  public:
   /// An interval of 0 s: with every state.
   explicit Schedule(double interval) : interval_(interval) {}
+
+  /// Goes on from when it was last done.
+  Schedule(double interval, std::optional<double> last) : interval_(interval) {
+    if (last) done(*last);
+  }
 
   /// Whether it is due in a state of this time [s].
   bool due(double time) const {
@@ -21,6 +27,9 @@ class Schedule {
     last_ = time;
     if (interval_ > 0) served_ = static_cast<std::int64_t>(time / interval_ + 1e-6) + 1;
   }
+
+  /// The time of the state it was last done for [s].
+  std::optional<double> last() const { return last_ < 0 ? std::nullopt : std::optional(last_); }
 
   /// Whether it has been done for the state of this time [s].
   bool is_done(double time) const { return last_ >= time; }

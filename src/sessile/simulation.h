@@ -15,60 +15,13 @@
 #include "sessile/pressure/solve.h"
 #include "sessile/scene/sampling.h"
 #include "sessile/scene/scene.h"
+#include "sessile/simulation_state.h"
+#include "sessile/step_health.h"
 #include "sessile/walls/walls.h"
 
 namespace sessile {
 
 struct StepView;
-
-/// Wall time [s] spent in each stage since the start. All of a step but a few assignments belongs to some stage.
-struct StageTimes {
-  double neighbors = 0, density = 0, forces = 0, time_step = 0, pressure = 0, integration = 0;
-  std::int64_t clock_reads = 0;  ///< readings of the clock that these took
-
-  double sum() const { return neighbors + density + forces + time_step + pressure + integration; }
-};
-
-/// What the last step did.
-struct StepReport {
-  double dt = 0;  ///< [s]
-  std::string_view
-      bound;  ///< what set dt: cfl, sound, solver, force, viscosity, capillary, growth, dt_max, dt_min, fixed
-  std::string_view overruled;      ///< the stability bound that a fixed dt or dt_min exceeds, or ""
-  int iterations = 0;              ///< of the pressure solve
-  int divergence_iterations = 0;   ///< of the solve that frees the velocities of divergence, if the solver has one
-  bool converged = true;           ///< whether every solve reached its error
-  double predicted_error = 0;      ///< average compression over rest density that the solver predicts
-  double predicted_error_max = 0;  ///< the greatest one
-  double kinetic_energy = 0;       ///< of all particles after it [J]
-};
-
-/// Kinetic energy [J] and where it comes from, since the start: kinetic = start + forces + pressure + emitted - out.
-/// The work of an acceleration a over a step is m a . (v + v')/2 dt, v and v' being the velocities before and after.
-struct EnergyAccount {
-  double start = 0;     ///< kinetic energy at the start
-  double forces = 0;    ///< work of all accelerations but pressure's: gravity, viscosity, tension, adhesion
-  double pressure = 0;  ///< work of pressure; that of an incompressible liquid between walls at rest only takes
-  double emitted = 0;   ///< kinetic energy let in by emitters
-  double out = 0;       ///< kinetic energy that left an open domain
-
-  double kinetic() const { return start + forces + pressure + emitted - out; }
-};
-
-/// Counts since the start.
-struct Totals {
-  std::int64_t steps = 0;
-  std::int64_t iterations = 0;
-  std::int64_t divergence_iterations = 0;
-  std::int64_t solves = 0;  ///< pressure solves, those that free velocities of divergence among them
-  std::int64_t unconverged_solves = 0;
-  std::int64_t overruled_steps = 0;  ///< steps in which a fixed dt or dt_min exceeded a stability bound
-  std::int64_t emitted = 0;          ///< particles let in by emitters
-  std::int64_t waits = 0;            ///< layers that fell due while their place was taken
-  std::int64_t out = 0;              ///< particles that left an open domain
-  std::int64_t lost = 0;             ///< passages through a solid; a position that is not finite ends the run
-  EnergyAccount energy{};
-};
 
 /// A liquid in motion: the state of a run and the paper's step.
 ///
@@ -80,13 +33,24 @@ class Simulation {
   /// Throws SceneError (overlaps, fluid inside a solid, nothing to simulate, not enough memory), FileError (meshes).
   explicit Simulation(Scene scene);
 
-  /// One step of Algorithm 1. Throws RunError when a particle's position is no longer finite.
+  /// Goes on from a state() with the scene it was taken from, bit for bit on the same instruction set.
+  /// Throws as above, and SceneError when the state cannot be one of this scene.
+  Simulation(Scene scene, SimulationState state);
+
+  /// One step of Algorithm 1. Throws RunError when a particle's position is no longer finite, or when their count is
+  /// not what started and was let in less what left. Nothing but go_back_to() goes on from there.
   void step();
 
   /// Goes on with other values of the parameters that may change between two steps (scene/tuning.h); without a change,
   /// as if it had not been called. A speed of sound that was found at the start stays unless one is given.
   /// Throws SceneError, and changes nothing, when the scene is faulty or differs in another parameter.
   void retune(Scene scene);
+
+  /// All that the scene does not tell, copied between two steps.
+  SimulationState state() const;
+
+  /// Goes on from a state() of its own, as if it had just been made of it. Throws SceneError when it is not one.
+  void go_back_to(const SimulationState& state);
 
   const Scene& scene() const { return scene_; }
   double time() const { return time_; }  ///< [s]
@@ -101,6 +65,7 @@ class Simulation {
   const Space& space() const { return space_; }  ///< displacements, across periodic faces too
 
   const StepReport& last_step() const { return last_step_; }
+  const StepHealth& health() const { return health_; }  ///< of the last step, of one that threw too
   const Totals& totals() const { return totals_; }
   const StageTimes& stage_times() const { return stage_times_; }
   std::size_t bytes() const;  ///< memory of particles, walls, neighbours and scratch
@@ -115,6 +80,9 @@ class Simulation {
   StepView view() const;
 
  private:
+  void set_up_surroundings();
+  void take_over(SimulationState state);
+  void fill_bodies();
   void look_around();
   void find_normals();
   void free_velocities_of_divergence(double dt);
@@ -125,8 +93,10 @@ class Simulation {
   void predict_velocities(double dt);
   void solve_pressure(double dt);
   void move(double dt);
+  std::string not_finite_text(double dt) const;
   void take_out_what_left();
   void let_in_new_layers();
+  void count() const;
 
   Scene scene_;
   Units units_;
@@ -138,6 +108,7 @@ class Simulation {
   std::vector<LayerSource> sources_;
   Walls walls_;
   std::vector<SolidGeometry> solids_;  // one per solid of walls_
+  std::vector<char> holds_liquid_;     // of each of them, whether the liquid is to stay on its one side
   bool coarse_walls_ = false;          // whether some solid's samples lie further apart than dx
   Grid grid_, wall_grid_;
   NeighborList fluid_neighbors_, wall_neighbors_;
@@ -148,6 +119,7 @@ class Simulation {
   mutable Array<Real> pairs_;   // the same of the field that the pass at hand gathers besides
   PressureScratch pressure_;
   StepReport last_step_;
+  StepHealth health_;
   Totals totals_;
   StageTimes stage_times_;
 };

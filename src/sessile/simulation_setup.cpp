@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +30,7 @@ constexpr double bytes_per_particle = 600;
 void refuse_what_does_not_fit(const Scene& scene) {
   double particles = 0;
   for (const Body& body : scene.bodies) particles += estimate_fill(body, scene.spacing);
+  for (const Emitter& emitter : scene.emitters) particles += estimate_layer(emitter, scene.spacing);
   for (const Solid& solid : scene.solids) particles += estimate_surface(solid, scene.spacing);
   if (scene.domain) {
     for (const Solid& wall : domain_walls(*scene.domain)) particles += estimate_surface(wall, scene.spacing);
@@ -119,6 +122,47 @@ std::vector<std::string> misplaced(const Array3& points, const std::vector<std::
   return {faults.begin(), faults.end()};
 }
 
+/// Of what the solids are made of: the places of their samples and whose they are.
+std::uint64_t digest(const Walls& walls) {
+  std::uint64_t hash = 0;
+  const auto add = [&](const auto& array) { hash = XXH3_64bits_withSeed(array.data(), bytes_of(array), hash); };
+  add(walls.position.x);
+  add(walls.position.y);
+  add(walls.position.z);
+  add(walls.solid);
+  return hash;
+}
+
+/// Refuses a state that cannot be one of this scene's.
+void refuse_foreign(const SimulationState& state, const Scene& scene, const Walls& walls) {
+  std::vector<std::string> faults;
+  const std::size_t n = state.particles.size();
+  bool whole = true, finite = true;
+  state.particles.for_each_field([&](const auto& array) {
+    whole = whole && array.size() == n;
+    finite = finite && std::all_of(array.begin(), array.end(), [](auto x) { return std::isfinite(x); });
+  });
+  if (static_cast<std::int64_t>(n) + state.totals.out != state.next_id || state.totals.emitted > state.next_id) {
+    faults.push_back(fmt::format("the state's particles do not add up: {} of {} are there and {} have left", n,
+                                 state.next_id, state.totals.out));
+  }
+  if (!whole) faults.emplace_back("the state's fields of particles are of different lengths");
+  if (!finite) faults.emplace_back("the state has numbers that are not finite");
+  if (!(state.time >= 0) || !std::isfinite(state.time)) faults.emplace_back("the state has no time");
+  if (state.sources.size() != scene.emitters.size()) {
+    faults.push_back(
+        fmt::format("the state has {} emitters, the scene {}", state.sources.size(), scene.emitters.size()));
+  }
+  if (state.forces.size() != walls.labels.size() || state.solids_digest != digest(walls)) {
+    faults.emplace_back(
+        "the solids are not those of the state: a mesh file has changed since, or the scene is another one");
+  }
+  if (const auto* method = std::get_if<Wcsph>(&scene.pressure); method != nullptr && !method->sound_speed) {
+    faults.emplace_back("pressure.sound_speed: must be given, as it was settled when the run started");
+  }
+  if (!faults.empty()) throw SceneError(std::move(faults));
+}
+
 /// Greatest speed [m/s] that the liquid can be expected to reach, or to be pressed as if it had: that of the start, of
 /// the fall from its highest place to the lowest boundary particle, and of the pressure 8 sigma/h that cohesion over a
 /// support radius h puts a liquid under (8.23 for the cohesion spline and unit vectors, by the integrals).
@@ -143,7 +187,7 @@ double expected_speed(const Scene& scene, const Array3& liquid, const Walls& wal
 
 }  // namespace
 
-Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
+void Simulation::set_up_surroundings() {
   std::vector<std::string> invalid;
   for (const Fault& fault : validate(scene_)) invalid.push_back(text(fault));
   if (!invalid.empty()) throw SceneError(std::move(invalid));
@@ -157,10 +201,14 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
   walls_ = make_walls(solids, scene_, grid_shape_, space_, wall_grid_);
   for (const Solid& solid : solids) {
     solids_.emplace_back(solid);
+    // Those that domain_walls() adds stand behind the scene's own.
+    holds_liquid_.push_back(solids_.size() > scene_.solids.size() || std::holds_alternative<Container>(solid.shape));
     coarse_walls_ = coarse_walls_ || solid.spacing.value_or(scene_.spacing) > 1.001 * scene_.spacing;
   }
+  for (const Emitter& emitter : scene_.emitters) sources_.emplace_back(emitter, scene_.spacing, space_);
+}
 
-  Array3 points;
+void Simulation::fill_bodies() {
   std::vector<std::size_t> owner;
   std::vector<std::string> names;
   for (std::size_t k = 0; k < scene_.bodies.size(); ++k) {
@@ -174,12 +222,10 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
       owner.push_back(names.size() - 1);
     }
   }
-  points = particles_.position;
   // A layer may appear where a body starts: it waits. But it cannot appear in a solid.
-  auto faults = misplaced(points, owner, names, scene_, walls_, solids_, wall_grid_, grid_shape_, space_);
+  auto faults = misplaced(particles_.position, owner, names, scene_, walls_, solids_, wall_grid_, grid_shape_, space_);
   for (std::size_t k = 0; k < scene_.emitters.size(); ++k) {
-    sources_.emplace_back(scene_.emitters[k], scene_.spacing, space_);
-    const Array3& places = sources_.back().places();
+    const Array3& places = sources_[k].places();
     for (auto& fault : misplaced(places, std::vector<std::size_t>(places.size(), 0),
                                  {name_of(scene_.emitters[k].label, "emitters", k)}, scene_, walls_, solids_,
                                  wall_grid_, grid_shape_, space_)) {
@@ -187,7 +233,12 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
     }
   }
   if (!faults.empty()) throw SceneError(std::move(faults));
-  settle_sound_speed(std::move(points));
+}
+
+Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
+  set_up_surroundings();
+  fill_bodies();
+  settle_sound_speed(particles_.position);
   for (std::size_t k = 0; k < particles_.size(); ++k) {
     totals_.energy.start += 0.5 * units_.particle_mass() * static_cast<double>(particles_.mass[k]) *
                             squared_length(vec_cast<double>(particles_.velocity[k]));
@@ -195,6 +246,37 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
   last_step_.kinetic_energy = totals_.energy.start;
   let_in_new_layers();
   look_around();
+}
+
+Simulation::Simulation(Scene scene, SimulationState state) : scene_(std::move(scene)) {
+  set_up_surroundings();
+  take_over(std::move(state));
+}
+
+void Simulation::go_back_to(const SimulationState& state) {
+  pressure_ = {};  // what went wrong may have left numbers there that are not finite
+  health_ = {};
+  take_over(state);
+}
+
+void Simulation::take_over(SimulationState state) {
+  refuse_foreign(state, scene_, walls_);
+  time_ = state.time;
+  particles_ = std::move(state.particles);
+  next_id_ = state.next_id;
+  for (std::size_t k = 0; k < sources_.size(); ++k) sources_[k].go_on_from(state.sources[k]);
+  walls_.forces = std::move(state.forces);
+  last_step_ = state.last_step;
+  totals_ = state.totals;
+  look_around();  // the particles are in the grid's order already, and stay so
+  stage_times_ = state.stage_times;
+}
+
+SimulationState Simulation::state() const {
+  SimulationState state{time_,          particles_, next_id_, {},          walls_.forces,
+                        digest(walls_), last_step_, totals_,  stage_times_};
+  for (const LayerSource& source : sources_) state.sources.push_back(source.progress());
+  return state;
 }
 
 void Simulation::settle_sound_speed(Array3 liquid) {

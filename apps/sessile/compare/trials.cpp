@@ -112,7 +112,7 @@ RunRecord run_or_reuse(const ResolvedScene& resolved, const TrialSettings& setti
   if (error) throw FileError(verdict.string() + ": cannot remove this verdict of an earlier run: " + error.message());
   RunObserver observer(stop_unsound);
   const SessionResult result =
-      run_session(resolved, {settings.scene_file, path, progress_style(settings.progress), label},
+      run_session(resolved, {settings.scene_file, path, progress_style(settings.progress), label, false},
                   [&](const Simulation& simulation) { return observer.look(simulation); });
   if (result.error) {
     try {

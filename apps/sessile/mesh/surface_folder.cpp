@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -93,25 +94,50 @@ Vec3d up_of(const Scene& scene) {
   return {-scene.gravity.x / strength + 0.0, -scene.gravity.y / strength + 0.0, -scene.gravity.z / strength + 0.0};
 }
 
-SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scene& scene, SurfacePlan plan, bool anew)
+SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scene& scene, SurfacePlan plan,
+                             std::optional<std::size_t> keep)
     : folder_(std::move(folder)),
+      lock_(folder_),
       plan_(std::move(plan)),
+      resumable_(keep.has_value()),
       formats_(formats_named(plan_.formats)),
       solids_(solid_meshes(scene)) {
-  create_output_folder(folder_);
   index_.source = fs::absolute(source).lexically_normal().lexically_proximate(fs::absolute(folder_).lexically_normal());
   index_.spacing = plan_.spacing;
   index_.up = up_of(scene);
   index_.settings = on_one_line(to_json(plan_.settings));
   SurfaceIndex before = read_index(folder_ / index_file);
-  if (!anew && before.same_origin(index_)) {
+  if (keep != std::size_t{0} && before.same_origin(index_)) {
     index_.frames = std::move(before.frames);
+    if (keep) {
+      std::ranges::move(before.waiting, std::back_inserter(index_.frames));
+      std::ranges::sort(index_.frames, {}, &SurfaceEntry::number);
+      keep_first(*keep);
+    }
   } else {
-    remove_surfaces(folder_);
-    create_output_folder(folder_);
+    remove_surfaces(folder_);  // not the folder itself: the lock is in it
   }
   write_solids();
   write_index();
+}
+
+/// Goes back to when there were so many surfaces.
+void SurfaceFolder::keep_first(std::size_t count) {
+  if (index_.frames.size() < count) {
+    throw FileError(
+        fmt::format("{}: holds {} of the {} surfaces that had been made; without a block output.surface, "
+                    "`sessile mesh` makes them from frames",
+                    folder_.string(), index_.frames.size(), count));
+  }
+  for (std::size_t k = count; k < index_.frames.size(); ++k) {
+    std::erase(index_.frames[k].files, sequence_file);  // it holds the others too
+    remove_files(folder_, index_.frames[k]);
+  }
+  index_.frames.resize(count);
+  if (std::none_of(formats_.begin(), formats_.end(), [](const auto* format) { return is_sequence(*format); })) return;
+  for (SurfaceEntry& each : index_.frames) std::erase(each.files, sequence_file);
+  sequence_.emplace(folder_ / sequence_file, plan_.frames_per_second, count, index_.frames.back().time);
+  for (const SurfaceEntry& each : index_.frames) sequence_frames_.push_back(each.number);
 }
 
 void SurfaceFolder::keep_only(const std::vector<ResultFrame>& frames) {
@@ -155,6 +181,7 @@ void SurfaceFolder::write(std::int64_t number, const SurfaceMesh& mesh,
   for (const SurfaceFormat* format : formats) {
     if (is_sequence(*format)) {
       if (!sequence_) sequence_.emplace(folder_ / sequence_file, plan_.frames_per_second);
+      if (resumable_) sequence_->leave_parts();
       sequence_->add(mesh);
       sequence_frames_.push_back(number);
       continue;
@@ -190,7 +217,10 @@ void SurfaceFolder::write_solids() {
 
 void SurfaceFolder::write_index() const {
   SurfaceIndex whole = index_;
-  std::erase_if(whole.frames, [](const SurfaceEntry& each) { return each.files.empty(); });
+  const auto in_files = std::stable_partition(whole.frames.begin(), whole.frames.end(),
+                                              [](const SurfaceEntry& each) { return !each.files.empty(); });
+  whole.waiting.assign(in_files, whole.frames.end());
+  whole.frames.erase(in_files, whole.frames.end());
   std::vector<TimedFile> collection;
   for (const SurfaceEntry& each : whole.frames) {
     const std::string name = surface_file_name(each.number, "vtp");

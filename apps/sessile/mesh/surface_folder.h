@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "folder_lock.h"
 #include "sessile/output/frames.h"
 #include "sessile/output/surfaces.h"
 #include "sessile/output/usda.h"
@@ -42,9 +43,11 @@ Vec3d up_of(const Scene& scene);
 class SurfaceFolder {
  public:
   /// Makes the folder and writes the solids. Of what lies there already, surfaces of the same particles and settings
-  /// stay listed, unless `anew`; others are removed. `source` is the folder of the particles. Throws FileError.
+  /// stay listed, the first `keep` of them; others are removed. `source` is the folder of the particles.
+  /// Throws FileError, also when fewer than `keep` are there, and FolderInUse while another process writes surfaces
+  /// there.
   SurfaceFolder(std::filesystem::path folder, const std::filesystem::path& source, const Scene& scene, SurfacePlan plan,
-                bool anew);
+                std::optional<std::size_t> keep);
 
   /// Frees the list of frames that are no longer among the source's.
   void keep_only(const std::vector<ResultFrame>& frames);
@@ -61,14 +64,18 @@ class SurfaceFolder {
 
   const SurfacePlan& plan() const { return plan_; }
   const std::filesystem::path& folder() const { return folder_; }
+  const FolderLock& lock() const { return lock_; }
 
  private:
+  void keep_first(std::size_t count);
   void write_solids();
   void write_index() const;
   SurfaceEntry& entry(std::int64_t number);
 
   std::filesystem::path folder_;
+  FolderLock lock_;
   SurfacePlan plan_;
+  bool resumable_;  // whether a run writes here, that may go on one day
   std::vector<const SurfaceFormat*> formats_;
   std::vector<SolidMesh> solids_;
   SurfaceIndex index_;

@@ -56,6 +56,7 @@ std::string index_json(const SurfaceIndex& index) {
       .raw("up", fmt::format("[{}, {}, {}]", index.up.x, index.up.y, index.up.z))
       .raw("settings", index.settings)
       .raw("frames", list_of(index.frames, frame_json))
+      .raw("waiting", list_of(index.waiting, frame_json))
       .raw("solids", list_of(index.solids, [](const SurfaceIndex::Solid& solid) {
              return fmt::format(R"({{"label": {}, "file": {}}})", quoted(solid.label), quoted(solid.file));
            }));
@@ -72,6 +73,7 @@ SurfaceIndex read_index(const std::filesystem::path& file) {
     index.source = json["source"].asString();
     index.spacing = json["spacing"].asDouble();
     for (const Json::Value& frame : json["frames"]) index.frames.push_back(entry_of(frame));
+    for (const Json::Value& frame : json["waiting"]) index.waiting.push_back(entry_of(frame));
     for (const Json::Value& solid : json["solids"]) {
       const std::string name = solid["file"].asString();
       if (is_ours(name, "solid_")) index.solids.push_back({solid["label"].asString(), name});

@@ -24,6 +24,7 @@ struct SurfaceIndex {
   Vec3d up{0, 0, 1};     ///< against gravity, of length 1
   std::string settings;  ///< of the surfaces, as JSON
   std::vector<SurfaceEntry> frames;
+  std::vector<SurfaceEntry> waiting;  ///< frames that no whole file holds yet, but one that all frames go into
 
   struct Solid {
     std::string label;

@@ -15,11 +15,13 @@ double interval_of(const Output& output) {
 
 }  // namespace
 
-SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& results, const Scene& scene)
-    : asked_(scene.output.surface), schedule_(interval_of(scene.output)) {
+SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& results, const Scene& scene, std::vector<double> times)
+    : asked_(scene.output.surface),
+      schedule_(interval_of(scene.output), times.empty() ? std::nullopt : std::optional(times.back())),
+      times_(std::move(times)) {
   if (!asked_ || asked_->formats.empty()) return;
   SurfacePlan plan{*asked_, asked_->formats, scene.spacing, 1 / interval_of(scene.output)};
-  folder_.emplace(results / surface_folder_name, results, scene, std::move(plan), true);
+  folder_.emplace(results / surface_folder_name, results, scene, std::move(plan), times_.size());
 }
 
 void SurfaceRecorder::record(const Simulation& simulation) {
@@ -30,7 +32,8 @@ void SurfaceRecorder::write(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   schedule_.done(simulation.time());
   const SurfaceMesh mesh = reconstruct(take_snapshot(simulation, scene.output.columns), scene.spacing, *asked_);
-  folder_->write(written_++, mesh);
+  folder_->write(static_cast<std::int64_t>(times_.size()), mesh);
+  times_.push_back(simulation.time());
   measures_ = {surface_area(mesh), enclosed_volume(mesh)};
   measured_time_ = simulation.time();
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "schedule.h"
 #include "sessile/output/stats.h"
@@ -15,11 +16,15 @@ namespace sessile::app {
 /// surface's measures for stats.csv.
 class SurfaceRecorder {
  public:
-  /// `results` is the folder of the run. Throws FileError.
-  SurfaceRecorder(const std::filesystem::path& results, const Scene& scene);
+  /// `results` is the folder of the run, `times` those of the surfaces that are there already [s]; others are removed.
+  /// Throws FileError.
+  SurfaceRecorder(const std::filesystem::path& results, const Scene& scene, std::vector<double> times = {});
 
   /// Called after each step: writes a surface when one is due. Throws FileError.
   void record(const Simulation& simulation);
+
+  /// Of all surfaces that are there [s].
+  const std::vector<double>& times() const { return times_; }
 
   /// Area and volume of the surface now, where the scene asks for them.
   std::optional<SurfaceMeasures> measure(const Simulation& simulation);
@@ -33,7 +38,7 @@ class SurfaceRecorder {
   std::optional<SurfaceOutput> asked_;
   Schedule schedule_;
   std::optional<SurfaceFolder> folder_;  // when there are formats
-  std::int64_t written_ = 0;
+  std::vector<double> times_;
   double measured_time_ = -1;  // of measures_ [s]
   SurfaceMeasures measures_{};
 };

@@ -135,7 +135,7 @@ SceneFootage::SceneFootage(const PictureOptions& options)
 }
 
 void SceneFootage::play(const TakeMoment& take) {
-  Progress progress(progress_style(options_.progress));
+  Progress progress(progress_style(options_.progress), "", simulation_);
   for (const double time : times_) {
     while (simulation_.time() < time * (1 - 1e-9) && !stop_asked()) {
       simulation_.step();

@@ -17,16 +17,21 @@ namespace {
 namespace fs = std::filesystem;
 
 FileError failure(std::string_view what, const fs::path& path, int error) {
-  return FileError(fmt::format("cannot {} {}: {}", what, path.string(), std::generic_category().message(error)));
+  const std::error_code reason(error, std::generic_category());
+  return FileError(fmt::format("cannot {} {}: {}", what, path.string(), reason.message()), reason);
 }
 
-/// Opens for writing, or returns -1 with errno. Descriptors do not leak into programs that are started meanwhile.
-int open_for_writing(const fs::path& path, int flags) {
+/// Opens, or returns -1 with errno. Descriptors do not leak into programs that are started meanwhile.
+int open_descriptor(const fs::path& path, int flags) {
   int descriptor;
   do {
-    descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | flags, 0666);
+    descriptor = ::open(path.c_str(), O_CLOEXEC | flags, 0666);
   } while (descriptor < 0 && errno == EINTR);
   return descriptor;
+}
+
+int open_for_writing(const fs::path& path, int flags) {
+  return open_descriptor(path, O_WRONLY | O_CREAT | O_TRUNC | flags);
 }
 
 /// Writes all bytes. Returns 0 or the error.
@@ -97,6 +102,19 @@ LineFile::LineFile(fs::path path) : path_(std::move(path)), descriptor_(open_for
   if (descriptor_ < 0) throw failure("write", path_, errno);
 }
 
+LineFile::LineFile(fs::path path, Keep keep)
+    : path_(std::move(path)), descriptor_(open_descriptor(path_, O_WRONLY | O_APPEND)), size_(keep.bytes) {
+  if (descriptor_ < 0) throw failure("go on with", path_, errno);
+  struct stat now {};
+  int error = ::fstat(descriptor_, &now) == 0 ? 0 : errno;
+  const bool shorter = error == 0 && static_cast<std::uint64_t>(now.st_size) < keep.bytes;
+  if (error == 0 && !shorter && ::ftruncate(descriptor_, static_cast<off_t>(keep.bytes)) != 0) error = errno;
+  if (error == 0 && !shorter) return;
+  ::close(descriptor_);
+  if (shorter) throw FileError(fmt::format("cannot go on with {}: it is shorter than it was", path_.string()));
+  throw failure("go on with", path_, error);
+}
+
 LineFile::~LineFile() { ::close(descriptor_); }
 
 void LineFile::append(std::string_view line) {
@@ -107,6 +125,11 @@ void LineFile::append(std::string_view line) {
     if (known && S_ISREG(before.st_mode)) static_cast<void>(!::ftruncate(descriptor_, before.st_size));
     throw failure("write", path_, error);
   }
+  size_ += line.size();
+}
+
+void LineFile::sync() const {
+  if (const int error = sessile::sync(descriptor_)) throw failure("write", path_, error);
 }
 
 }  // namespace sessile

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -20,11 +21,21 @@ void finish_part(const std::filesystem::path& path);
 /// Throws FileError when that fails, when `path` is something else, or when nothing may be written into it.
 void create_output_folder(const std::filesystem::path& path);
 
+/// How much of a file stays that is gone on with [bytes].
+struct Keep {
+  explicit Keep(std::uint64_t length) : bytes(length) {}
+  std::uint64_t bytes;
+};
+
 /// A file that grows by whole lines. What has been appended stays good whenever the program ends.
 class LineFile {
  public:
   /// Opens `path` anew and empty. Throws FileError.
   explicit LineFile(std::filesystem::path path);
+
+  /// Opens `path` as it is and takes back what follows the part that stays.
+  /// Throws FileError, also when it is not as long as that.
+  LineFile(std::filesystem::path path, Keep keep);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
@@ -33,9 +44,14 @@ class LineFile {
   /// Throws FileError when it could not be written in full; the part that was is taken back.
   void append(std::string_view line);
 
+  /// Asks the disk to keep what has been appended. Throws FileError.
+  void sync() const;
+  std::uint64_t size() const { return size_; }  ///< [bytes]
+
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;
+  std::uint64_t size_ = 0;
 };
 
 }  // namespace sessile

@@ -42,12 +42,21 @@ class StatsWriter {
   /// Opens the file anew and writes its header. Throws FileError.
   StatsWriter(const std::filesystem::path& path, std::span<const std::string> solid_labels, bool surface = false);
 
+  /// Goes on with a file that it wrote. Throws FileError.
+  StatsWriter(const std::filesystem::path& path, Keep keep) : file_(path, keep) {}
+
   /// Appends a line. Throws FileError; then no half line is left.
   void write(const StatsRow& row);
 
   /// Appends a line for the simulation as it stands.
   void write(const Simulation& simulation, const Diagnostics& measured,
              const std::optional<SurfaceMeasures>& surface = {});
+
+  /// Makes sure that the disk has the lines, and says how long the file is [bytes]. Throws FileError.
+  std::uint64_t settle() const {
+    file_.sync();
+    return file_.size();
+  }
 
  private:
   LineFile file_;

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -73,9 +75,22 @@ std::string solid_text(const std::string& name, const SurfaceMesh& mesh) {
       name, mesh_traits, extent_of(mesh), vectors_of(mesh.points), counts_of(mesh), list_of(mesh.triangles));
 }
 
-/// Appends what a file holds.
+constexpr std::string_view sample_indent = "            ", points_name = "point3f[] points";
+
+/// The time code that a line's sample belongs to.
+std::optional<double> code_of(std::string_view line) {
+  if (!line.starts_with(sample_indent)) return {};
+  line.remove_prefix(sample_indent.size());
+  double code = 0;
+  const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), code);
+  return error == std::errc{} && rest != line.data() + line.size() && *rest == ':' ? std::optional(code) : std::nullopt;
+}
+
+/// Appends what a file holds after its first line.
 void copy(const std::filesystem::path& from, LineFile& to) {
   std::ifstream in(from, std::ios::binary);
+  std::string first;
+  std::getline(in, first);
   std::vector<char> block(std::size_t{1} << 20);
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
     to.append({block.data(), static_cast<std::size_t>(in.gcount())});
@@ -88,23 +103,92 @@ void copy(const std::filesystem::path& from, LineFile& to) {
 UsdaWriter::UsdaWriter(std::filesystem::path file, double frames_per_second)
     : file_(std::move(file)), rate_(frames_per_second) {}
 
+UsdaWriter::UsdaWriter(std::filesystem::path file, double frames_per_second, std::size_t count, double until)
+    : UsdaWriter(std::move(file), frames_per_second) {
+  if (count == 0) return;
+  // A writer that went on with a file and was killed leaves that file, which may be too short, beside its own parts.
+  if (take_from_file(until * rate_) < count && take_from_parts(until * rate_) < count) {
+    throw FileError(fmt::format("cannot go on with {}: it lacks frames that had been written", file_.string()));
+  }
+  code_ = until * rate_;
+  any_ = true;
+}
+
 UsdaWriter::~UsdaWriter() {
   std::error_code ignored;
   std::filesystem::remove(part_name(file_), ignored);
+  if (leaves_parts_) return;
   for (const Attribute& each : attributes_) std::filesystem::remove(each.file, ignored);
 }
 
+std::filesystem::path UsdaWriter::part_of(std::size_t attribute) const {
+  return part_name(file_.parent_path() / fmt::format("{}.{}", file_.filename().string(), attribute));
+}
+
+/// The attribute of this name; its file begins with a line that says what it holds.
+UsdaWriter::Attribute& UsdaWriter::attribute(std::string_view type_and_name, std::string_view brackets) {
+  const auto found = std::find_if(attributes_.begin(), attributes_.end(),
+                                  [&](const Attribute& each) { return each.name == type_and_name; });
+  if (found != attributes_.end()) return *found;
+  Attribute added{std::string(brackets), std::string(type_and_name), part_of(attributes_.size()), nullptr};
+  added.samples = std::make_unique<LineFile>(added.file);
+  added.samples->append(fmt::format("{}|{}\n", added.name, added.declaration));
+  return attributes_.emplace_back(std::move(added));
+}
+
 void UsdaWriter::sample(std::string_view type_and_name, std::string_view brackets, const std::string& value) {
-  auto found = std::find_if(attributes_.begin(), attributes_.end(),
-                            [&](const Attribute& each) { return each.name == type_and_name; });
-  if (found == attributes_.end()) {
-    const auto part = file_.parent_path() / fmt::format("{}.{}", file_.filename().string(), attributes_.size());
-    Attribute attribute{std::string(brackets), std::string(type_and_name), part_name(part), nullptr};
-    attribute.samples = std::make_unique<LineFile>(attribute.file);
-    attributes_.push_back(std::move(attribute));
-    found = attributes_.end() - 1;
+  attribute(type_and_name, brackets).samples->append(fmt::format("{}{}: {},\n", sample_indent, code_, value));
+}
+
+/// Takes the samples up to a time code out of the finished file, back into files of their own. Returns how many frames
+/// there are.
+std::size_t UsdaWriter::take_from_file(double until) {
+  constexpr std::string_view indent = "        ", opening = ".timeSamples = {";
+  std::ifstream in(file_, std::ios::binary);
+  Attribute* current = nullptr;
+  std::string brackets;
+  std::size_t frames = 0;
+  for (std::string line; std::getline(in, line);) {
+    const std::string_view text(line);
+    if (text.starts_with(sample_indent) && current == nullptr) {
+      brackets = text.substr(sample_indent.size());
+    } else if (text.ends_with(opening)) {
+      const auto name = text.substr(indent.size(), text.size() - indent.size() - opening.size());
+      current = &attribute(name, std::exchange(brackets, ""));
+    } else if (!text.starts_with(sample_indent)) {
+      current = nullptr;
+    } else if (const auto code = code_of(text); code && *code <= until) {
+      current->samples->append(line + '\n');
+      if (current->name != points_name) continue;
+      if (frames++ == 0) first_code_ = *code;
+    }
   }
-  found->samples->append(fmt::format("            {}: {},\n", code_, value));
+  return frames;
+}
+
+/// The same from the files that a writer left when it was killed. Replaces what has been taken so far.
+std::size_t UsdaWriter::take_from_parts(double until) {
+  attributes_.clear();
+  std::size_t frames = 0;
+  for (std::size_t k = 0;; ++k) {
+    const auto part = part_of(k);
+    std::ifstream in(part, std::ios::binary);
+    std::string line;
+    if (!std::getline(in, line) || in.eof()) return frames;
+    const auto bar = line.find('|');
+    if (bar == std::string::npos) return frames;
+    Attribute found{line.substr(bar + 1), line.substr(0, bar), part, nullptr};
+    std::uint64_t keep = line.size() + 1;
+    while (std::getline(in, line) && !in.eof()) {
+      const auto code = code_of(line);
+      if (!code || *code > until) break;
+      keep += line.size() + 1;
+      if (found.name != points_name) continue;
+      if (frames++ == 0) first_code_ = *code;
+    }
+    found.samples = std::make_unique<LineFile>(part, Keep{keep});
+    attributes_.push_back(std::move(found));
+  }
 }
 
 void UsdaWriter::column(const Column& column) {
@@ -128,7 +212,7 @@ void UsdaWriter::add(const SurfaceMesh& mesh) {
   sample("float3[] extent", "", extent_of(mesh));
   sample("int[] faceVertexCounts", "", counts_of(mesh));
   sample("int[] faceVertexIndices", "", list_of(mesh.triangles));
-  sample("point3f[] points", "", vectors_of(mesh.points));
+  sample(points_name, "", vectors_of(mesh.points));
   sample("normal3f[] normals", "interpolation = \"vertex\"", vectors_of(mesh.normals));
   for (const Column& each : mesh.columns) column(each);
 }
@@ -160,6 +244,7 @@ void UsdaWriter::finish(const Vec3d& up, std::span<const SolidMesh> solids) {
     out.append("}\n");
   }
   finish_part(file_);
+  leaves_parts_ = false;
 }
 
 }  // namespace sessile

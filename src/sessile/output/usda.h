@@ -22,6 +22,13 @@ class UsdaWriter {
   /// `frames_per_second` of simulated time: a time code is a frame. Throws FileError.
   UsdaWriter(std::filesystem::path file, double frames_per_second);
 
+  /// Goes on with the first `count` frames, the last of them of time `until` [s], of a writer of the same file that has
+  /// finished or was killed. Throws FileError when they are not there.
+  UsdaWriter(std::filesystem::path file, double frames_per_second, std::size_t count, double until);
+
+  /// From now on, what has not been joined stays for a writer that goes on with it.
+  void leave_parts() { leaves_parts_ = true; }
+
   /// Takes back what has not been joined.
   ~UsdaWriter();
   UsdaWriter(UsdaWriter&&) = delete;
@@ -41,13 +48,17 @@ class UsdaWriter {
     std::unique_ptr<LineFile> samples;
   };
 
+  std::filesystem::path part_of(std::size_t attribute) const;
+  Attribute& attribute(std::string_view type_and_name, std::string_view brackets);
+  std::size_t take_from_file(double until);
+  std::size_t take_from_parts(double until);
   void sample(std::string_view type_and_name, std::string_view brackets, const std::string& value);
   void column(const Column& column);
 
   std::filesystem::path file_;
   double rate_;
   double code_ = 0, first_code_ = 0;  // of the last frame, of the first one
-  bool any_ = false;
+  bool any_ = false, leaves_parts_ = false;
   std::vector<Attribute> attributes_;
 };
 

@@ -22,8 +22,11 @@ std::vector<const FrameFormat*> formats_named(std::span<const std::string> names
 
 }  // namespace
 
-FrameWriter::FrameWriter(std::filesystem::path folder, std::span<const std::string> formats)
-    : folder_(std::move(folder)), formats_(formats_named(formats)), thread_([this] { work(); }) {}
+FrameWriter::FrameWriter(std::filesystem::path folder, std::span<const std::string> formats, std::vector<double> times)
+    : folder_(std::move(folder)),
+      formats_(formats_named(formats)),
+      times_(std::move(times)),
+      thread_([this] { work(); }) {}
 
 FrameWriter::~FrameWriter() {
   try {
@@ -44,6 +47,16 @@ void FrameWriter::push(Snapshot snapshot) {
   changed_.notify_all();
 }
 
+std::vector<double> FrameWriter::settle() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return error_ || (queue_.empty() && idle_); });
+  if (error_) {
+    reported_ = true;
+    std::rethrow_exception(error_);
+  }
+  return times_;
+}
+
 void FrameWriter::write_solids(const Snapshot& solids) const {
   for (const FrameFormat* format : formats_) {
     write_whole(folder_ / solids_file_name(format->name), format->encode(solids));
@@ -62,7 +75,7 @@ void FrameWriter::close() {
 
 std::int64_t FrameWriter::frames_written() const {
   const std::lock_guard lock(mutex_);
-  return written_;
+  return static_cast<std::int64_t>(times_.size());
 }
 
 double FrameWriter::seconds() const {
@@ -77,6 +90,7 @@ void FrameWriter::work() {
     if (queue_.empty()) return;
     const Snapshot snapshot = std::move(queue_.front());
     queue_.pop();
+    idle_ = false;
     changed_.notify_all();
 
     lock.unlock();
@@ -97,19 +111,27 @@ void FrameWriter::work() {
       changed_.notify_all();
       return;
     }
-    ++written_;
+    times_.push_back(snapshot.time);
+    idle_ = true;
+    changed_.notify_all();
   }
 }
 
 void FrameWriter::write(const Snapshot& snapshot) {
-  const std::int64_t number = frames_written();
+  std::vector<TimedFile> collection;
+  const auto listed = [&](std::int64_t frame, double time) {
+    collection.push_back({time, frame_file_name(frame, "vtp")});
+  };
+  std::int64_t number = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const double time : times_) listed(number++, time);
+  }
+  listed(number, snapshot.time);
   for (const FrameFormat* format : formats_) {
     const std::string name = frame_file_name(number, format->name);
     write_whole(folder_ / name, format->encode(snapshot));
-    if (format->name == "vtp") {
-      collection_.push_back({snapshot.time, name});
-      write_whole(folder_ / "frames.pvd", encode_pvd(collection_));
-    }
+    if (format->name == "vtp") write_whole(folder_ / "frames.pvd", encode_pvd(collection));
   }
 }
 

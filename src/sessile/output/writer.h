@@ -26,7 +26,8 @@ class FrameWriter {
   static constexpr std::size_t queue_length = 2;
 
   /// `formats` are names from frame_formats(). Throws Error for any other. The folder must exist.
-  FrameWriter(std::filesystem::path folder, std::span<const std::string> formats);
+  /// `times` [s]: of frames that are in the folder already, from the first on; new ones are numbered after them.
+  FrameWriter(std::filesystem::path folder, std::span<const std::string> formats, std::vector<double> times = {});
 
   /// Waits for what has been pushed; an error that nobody asked for is dropped.
   ~FrameWriter();
@@ -36,6 +37,10 @@ class FrameWriter {
   /// Hands a frame over; frames are numbered in the order they come. Waits while the queue is full.
   /// Throws what went wrong with an earlier frame (FileError), at each call.
   void push(Snapshot snapshot);
+
+  /// Waits until every frame that has been pushed is on disk, and gives the times [s] of all that are there.
+  /// Throws what went wrong.
+  std::vector<double> settle();
 
   /// Writes the solids' samples, once, before it returns: solids.vtp, solids.ply. Throws FileError.
   void write_solids(const Snapshot& solids) const;
@@ -60,11 +65,11 @@ class FrameWriter {
   bool closing_ = false;
   bool reported_ = false;
   std::exception_ptr error_;
-  std::int64_t written_ = 0;
+  std::vector<double> times_;  // of the frames that are there whole
+  bool idle_ = true;           // whether the thread waits for frames
   double seconds_ = 0;
 
-  std::vector<TimedFile> collection_;  // the thread's own
-  std::jthread thread_;                // last, so that it starts when all else is there
+  std::jthread thread_;  // last, so that it starts when all else is there
 };
 
 }  // namespace sessile

@@ -27,13 +27,14 @@ LayerSource::LayerSource(const Emitter& emitter, double spacing, const Space& sp
 }
 
 std::optional<double> LayerSource::due() const {
-  if (emitter_.count && next_ >= *emitter_.count) return {};
+  const std::int64_t next = progress_.emitted;
+  if (emitter_.count && next >= *emitter_.count) return {};
   double time = 0;
   if (emitter_.interval) {
-    time = emitter_.start + static_cast<double>(next_) * *emitter_.interval;
+    time = emitter_.start + static_cast<double>(next) * *emitter_.interval;
   } else {
-    if (next_ >= static_cast<std::int64_t>(emitter_.times.size())) return {};
-    time = emitter_.times[static_cast<std::size_t>(next_)];
+    if (next >= static_cast<std::int64_t>(emitter_.times.size())) return {};
+    time = emitter_.times[static_cast<std::size_t>(next)];
   }
   if (emitter_.end && time > *emitter_.end) return {};
   return time;
@@ -65,7 +66,7 @@ bool LayerSource::taken(const Particles& particles) const {
 Emission LayerSource::emit(double time, Particles& particles, std::int64_t& next_id, std::size_t most) {
   const std::optional<double> when = due();
   if (!when || time < *when) return Emission::not_due;
-  if (taken(particles)) return std::exchange(waiting_, true) ? Emission::waiting : Emission::began_to_wait;
+  if (taken(particles)) return std::exchange(progress_.waiting, true) ? Emission::waiting : Emission::began_to_wait;
   if (places_.size() > most || particles.size() > most - places_.size()) {
     throw RunError(fmt::format(
         "at {:g} s {} would let {} particles in to {} others; there may be {} in all (give it a count or an "
@@ -77,8 +78,8 @@ Emission LayerSource::emit(double time, Particles& particles, std::int64_t& next
   for (std::size_t k = 0; k < places_.size(); ++k) {
     particles.add(places_[k], velocity, static_cast<Real>(emitter_.mass_factor), next_id++);
   }
-  ++next_;
-  waiting_ = false;
+  ++progress_.emitted;
+  progress_.waiting = false;
   return Emission::emitted;
 }
 

@@ -16,6 +16,12 @@ namespace sessile {
 /// What became of an emitter's next layer.
 enum class Emission { not_due, emitted, began_to_wait, waiting };
 
+/// How far an emitter has come.
+struct LayerProgress {
+  std::int64_t emitted = 0;  ///< layers
+  bool waiting = false;      ///< whether the next one fell due while its place was taken
+};
+
 /// An emitter at work: the places of its layer, and which layer comes next.
 class LayerSource {
  public:
@@ -27,7 +33,10 @@ class LayerSource {
   Emission emit(double time, Particles& particles, std::int64_t& next_id, std::size_t most = most_indices);
 
   const Array3& places() const { return places_; }
-  std::int64_t emitted_layers() const { return next_; }
+  std::int64_t emitted_layers() const { return progress_.emitted; }
+
+  const LayerProgress& progress() const { return progress_; }
+  void go_on_from(const LayerProgress& progress) { progress_ = progress; }
 
  private:
   std::optional<double> due() const;
@@ -39,8 +48,7 @@ class LayerSource {
   Array3 places_;  // in the order of grid_
   Grid grid_;
   Vec3r lower_, upper_;  // box around the places, grown by the clearance
-  std::int64_t next_ = 0;
-  bool waiting_ = false;
+  LayerProgress progress_;
 };
 
 }  // namespace sessile

@@ -76,8 +76,9 @@ ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<c
   return resolve(SceneText::from_file(file), file, overrides, further);
 }
 
-ResolvedScene read_resolved_text(std::string text, const std::string& name, std::span<const std::string> overrides) {
-  return resolve(SceneText(std::move(text)), name, overrides, {});
+ResolvedScene read_resolved_text(std::string text, const std::string& name, std::span<const std::string> overrides,
+                                 const FurtherCheck& further) {
+  return resolve(SceneText(std::move(text)), name, overrides, further);
 }
 
 SurfaceSettings with_overrides(const SurfaceSettings& settings, std::span<const std::string> overrides) {

@@ -35,8 +35,8 @@ ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<c
                                   const FurtherCheck& further = {});
 
 /// The same of a scene that is at hand as text; `name` stands for the file in messages.
-ResolvedScene read_resolved_text(std::string text, const std::string& name,
-                                 std::span<const std::string> overrides = {});
+ResolvedScene read_resolved_text(std::string text, const std::string& name, std::span<const std::string> overrides = {},
+                                 const FurtherCheck& further = {});
 
 /// The settings of a surface with overrides put over them, as those of a scene: "cube_size=0.5", "method.type=density".
 /// Throws SceneError with every fault.

@@ -13,6 +13,7 @@
 #include "sessile/pressure/pressure.h"
 #include "sessile/scene/render_settings.h"
 #include "sessile/scene/shapes.h"
+#include "sessile/scene/stability_settings.h"
 #include "sessile/scene/surface_settings.h"
 
 /// A scene as plain structs: what a scene file says, after defaults, in SI units.
@@ -191,6 +192,23 @@ struct SurfaceOutput : SurfaceSettings {
   }
 };
 
+/// What a run can be resumed from, written while it goes on.
+struct CheckpointOutput {
+  int keep = 2;
+  double minutes = 10;
+  std::optional<double> interval;
+
+  static constexpr auto fields() {
+    using T = CheckpointOutput;
+    return std::tuple{
+        field(&T::keep, "keep", "", between(0, 1000000), "how many of the newest are kept; 0 for no checkpoints"),
+        field(&T::minutes, "minutes", "min", positive, "wall time between checkpoints; there is one at the end too"),
+        derived(field(&T::interval, "interval", "s", positive, "simulated time between checkpoints"),
+                "by wall time alone"),
+    };
+  }
+};
+
 /// What a run writes.
 struct Output {
   double frame_interval = 0.04;
@@ -198,6 +216,7 @@ struct Output {
   std::vector<std::string> formats{"vtp"};
   std::vector<std::string> columns{"id", "velocity", "density", "pressure"};
   std::optional<SurfaceOutput> surface;
+  CheckpointOutput checkpoint{};
 
   static constexpr auto fields() {
     using T = Output;
@@ -210,6 +229,7 @@ struct Output {
         field(&T::columns, "fields", "per-particle fields of a frame; see `sessile models`"),
         derived(field(&T::surface, "surface", "surfaces of the liquid, in the folder surface"),
                 "none; `sessile mesh` makes them from frames"),
+        field(&T::checkpoint, "checkpoint", "what the run can be resumed from, in the folder checkpoints"),
     };
   }
 };
@@ -228,6 +248,7 @@ struct Scene {
   std::vector<Emitter> emitters;
   std::optional<Domain> domain;
   std::vector<Solid> solids;
+  StabilitySettings stability{};
   Output output{};
   std::optional<RenderSettings> render;
 
@@ -246,6 +267,7 @@ struct Scene {
         field(&T::emitters, "emitters", "liquid let in later"),
         derived(field(&T::domain, "domain", "the box that is looked at"), "unbounded space"),
         field(&T::solids, "solids", "what the liquid cannot enter"),
+        field(&T::stability, "stability", "what happens when a run goes unstable"),
         field(&T::output, "output", "what a run writes"),
         derived(field(&T::render, "render", "what `sessile render` makes of it"), "its defaults"),
     };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 
 #include "sessile/scene/scene.h"
@@ -18,10 +19,14 @@ struct MotionScale {
   double tension = 0;        ///< macroscopic sigma of all forces [N/m]
 };
 
+/// All that can set a time step; "" before the first one.
+inline constexpr auto time_step_bounds = std::to_array<std::string_view>(
+    {"", "cfl", "sound", "force", "viscosity", "capillary", "solver", "growth", "dt_max", "dt_min", "fixed"});
+
 /// A time step and what set it.
 struct TimeStep {
   double dt = 0;               ///< [s]
-  std::string_view bound;      ///< cfl, sound, force, viscosity, capillary, solver, growth, dt_max, dt_min or fixed
+  std::string_view bound;      ///< one of time_step_bounds
   std::string_view overruled;  ///< the stability bound that dt_min or a fixed dt exceeds, or ""
 };
 

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session.h"
+
+namespace sessile::app {
+
+/// What to go on with, and how.
+struct ResumeOptions {
+  std::filesystem::path folder;        ///< of the run's results
+  std::optional<double> at;            ///< from the newest checkpoint that is not after this time [s]
+  std::vector<std::string> overrides;  ///< `path=value`, of what may change
+};
+
+/// A run that can go on.
+struct Resumable {
+  Simulation simulation;
+  SessionState before;
+  std::vector<std::string> notes;  ///< what the user should know, one line each
+};
+
+/// Opens the newest checkpoint of a run that is whole, and puts the overrides over its scene.
+/// Throws SceneError for what may not change, and FileError when there is no checkpoint to go on from.
+Resumable open_run(const ResumeOptions& options);
+
+/// Takes checkpoints away that are newer than where a run goes on from. Throws FileError.
+void drop_newer_checkpoints(const ResumeOptions& options, const Resumable& run);
+
+}  // namespace sessile::app

@@ -1,0 +1,73 @@
+#include "session_state.h"
+
+#include <fmt/format.h>
+#include <json/json.h>
+
+#include <memory>
+#include <string_view>
+
+#include "sessile/core/error.h"
+#include "sessile/output/json_object.h"
+
+namespace sessile::app {
+namespace {
+
+std::string list_of(const std::vector<double>& values) { return fmt::format("[{}]", fmt::join(values, ", ")); }
+
+/// Calls f(key, number) for each number that is always there.
+template <class State, class F>
+void each_number(State& state, F&& f) {
+  f("wall_time", state.wall_time);
+  f("output_time", state.output_time);
+  f("measures_time", state.measures_time);
+  f("writer_time", state.writer_time);
+}
+
+template <class State, class F>
+void each_list(State& state, F&& f) {
+  f("frame_times", state.frame_times);
+  f("surface_times", state.surface_times);
+}
+
+template <class State, class F>
+void each_option(State& state, F&& f) {
+  f("stats_time", state.stats_time);
+  f("frame_due", state.frame_due);
+}
+
+}  // namespace
+
+std::string session_json(const SessionState& state) {
+  JsonObject object(0);
+  object.add("stats_bytes", static_cast<std::size_t>(state.stats_bytes));
+  each_number(state, [&](std::string_view key, double value) { object.add(key, value); });
+  each_list(state, [&](std::string_view key, const auto& values) { object.raw(key, list_of(values)); });
+  each_option(state, [&](std::string_view key, const auto& value) {
+    if (value) object.add(key, *value);
+  });
+  return object.text() + "\n";
+}
+
+SessionState session_of(const std::string& json) {
+  Json::Value root;
+  const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
+  if (!reader->parse(json.data(), json.data() + json.size(), &root, nullptr) || !root.isObject()) {
+    throw Error("does not say what had been written");
+  }
+  SessionState state;
+  try {
+    state.stats_bytes = root["stats_bytes"].asUInt64();
+    each_number(state, [&](const char* key, double& value) { value = root[key].asDouble(); });
+    each_list(state, [&](const char* key, std::vector<double>& values) {
+      for (const Json::Value& each : root[key]) values.push_back(each.asDouble());
+    });
+    each_option(state, [&](const char* key, std::optional<double>& value) {
+      if (root.isMember(key)) value = root[key].asDouble();
+    });
+  } catch (const Json::Exception&) {
+    throw Error("does not say what had been written");
+  }
+  return state;
+}
+
+}  // namespace sessile::app

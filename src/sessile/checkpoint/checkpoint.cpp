@@ -1,0 +1,131 @@
+#include "sessile/checkpoint/checkpoint.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "sessile/checkpoint/archive.h"
+#include "sessile/core/error.h"
+#include "sessile/output/durable.h"
+
+namespace sessile {
+namespace {
+
+constexpr std::string_view magic = "SESSILE\n";
+
+/// What stands in front of the content.
+struct Header {
+  std::uint32_t format = checkpoint_format;
+  std::uint32_t real_bytes = sizeof(Real);
+  std::uint64_t raw_bytes = 0;
+  std::uint64_t checksum = 0;
+};
+static_assert(sizeof(Header) == 24 && std::is_trivially_copyable_v<Header>);
+constexpr std::size_t header_bytes = magic.size() + sizeof(Header);
+
+std::uint64_t checksum(Header header, std::string_view content) {
+  header.checksum = 0;
+  return XXH3_64bits_withSeed(content.data(), content.size(), XXH3_64bits(&header, sizeof header));
+}
+
+template <class A, class C>
+void fields(A& archive, C& checkpoint) {
+  archive(checkpoint.version, checkpoint.isa, checkpoint.scene_json, checkpoint.session, checkpoint.state);
+}
+
+std::uint64_t physical_memory() {
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::string decompressed(std::string_view content, std::uint64_t raw_bytes) {
+  std::string raw(static_cast<std::size_t>(raw_bytes), '\0');
+  const std::size_t size = ZSTD_decompress(raw.data(), raw.size(), content.data(), content.size());
+  if (ZSTD_isError(size) != 0) throw Error(std::string("zstd: ") + ZSTD_getErrorName(size));
+  if (size != raw.size()) throw Error("holds less than it tells of");
+  return raw;
+}
+
+}  // namespace
+
+std::string encode_checkpoint(const Checkpoint& checkpoint) {
+  StateWriter writer;
+  fields(writer, checkpoint);
+  const std::string content = writer.finish();
+  Header header;
+  header.raw_bytes = writer.raw_bytes();
+  header.checksum = checksum(header, content);
+  std::string bytes(magic);
+  bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
+  return bytes + content;
+}
+
+Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name, std::uint64_t most) {
+  const auto refuse = [&](std::string_view what) { throw FileError(fmt::format("{}: {}", name, what)); };
+  if (!bytes.starts_with(magic)) refuse("is no checkpoint of Sessile");
+  if (bytes.size() < header_bytes) refuse("this checkpoint is cut short");
+  Header header;
+  std::memcpy(&header, bytes.data() + magic.size(), sizeof header);
+  const std::string_view content = bytes.substr(header_bytes);
+  // A newer format may count its checksum in another way, so that its number comes first.
+  if (header.format == 0 || header.format > checkpoint_format) {
+    refuse(
+        fmt::format("this checkpoint is of format {}, and this program reads up to format {}: a newer Sessile "
+                    "goes on from it",
+                    header.format, checkpoint_format));
+  }
+  if (header.checksum != checksum(header, content)) {
+    refuse("this checkpoint is damaged or cut short: its checksum does not match");
+  }
+  if (header.real_bytes != sizeof(Real)) {
+    refuse(fmt::format("this checkpoint is of a build with {}-bit numbers, and this one has {}-bit numbers",
+                       8 * header.real_bytes, 8 * sizeof(Real)));
+  }
+  if (header.raw_bytes > (most > 0 ? most : physical_memory())) {
+    refuse(fmt::format("this checkpoint tells of {:.3g} GiB, which is more than there is memory for",
+                       static_cast<double>(header.raw_bytes) / (1 << 30)));
+  }
+  Checkpoint checkpoint;
+  try {
+    const std::string raw = decompressed(content, header.raw_bytes);
+    StateReader reader(raw);
+    fields(reader, checkpoint);
+    if (!reader.at_end()) throw Error("holds more than it should");
+  } catch (const Error& e) {
+    refuse(fmt::format("this checkpoint {}", e.what()));
+  }
+  return checkpoint;
+}
+
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
+  write_durably(file, encode_checkpoint(checkpoint));
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw FileError(fmt::format("cannot read {}: {}", file.string(), error ? error.message() : "is not a file"));
+  }
+  const auto size = std::filesystem::file_size(file, error);
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(error ? 0 : size, '\0');
+  if (error || !stream || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+    throw FileError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
+  }
+  return decode_checkpoint(bytes, file.string());
+}
+
+bool is_checkpoint(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  std::ifstream stream(file, std::ios::binary);
+  std::array<char, magic.size()> start{};
+  return stream.read(start.data(), start.size()) && std::string_view(start.data(), start.size()) == magic;
+}
+
+}  // namespace sessile

@@ -1,0 +1,196 @@
+#include "sessile/checkpoint/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "sessile/core/error.h"
+#include "sessile/scene/describe.h"
+#include "sessile/scene/read.h"
+#include "support/same_bits.h"
+#include "support/scenes.h"
+
+namespace sessile {
+namespace {
+
+template <class... T>
+std::vector<std::variant<T...>> one_of_each(const std::variant<T...>&) {
+  return {T{}...};
+}
+
+template <class V>
+std::string name(const V& chosen) {
+  return std::visit([](const auto& model) { return std::string(model.name); }, chosen);
+}
+
+/// A drop that falls on to a plate, beside an emitter, in a domain that is periodic along x and open above: all that a
+/// state can hold.
+Scene busy() {
+  Scene scene = test::block(5, 2e-3, 1);
+  scene.time.fixed_dt.reset();
+  scene.gravity = {0, 0, -9.81};
+  scene.bodies[0].placement.position = {0, 0, 0.35};
+  scene.bodies[0].velocity = {0.5, 0, -2};
+  scene.domain = Domain{{-0.8, -2, -1}, {0.8, 2, 1.5}, Edge::periodic, Edge::open, Edge::open};
+  Solid plate;
+  plate.shape = Plate{1.6, 2};
+  plate.label = "plate";
+  scene.solids = {plate};
+  Emitter jet;
+  jet.shape = Rectangle{0.3, 0.3};
+  jet.placement.position = {0, 0, 1.1};
+  jet.velocity = {0, 0, 8};
+  jet.interval = 0.013;
+  scene.emitters = {jet};
+  return scene;
+}
+
+void take(Simulation& simulation, int steps) {
+  for (int k = 0; k < steps; ++k) simulation.step();
+}
+
+/// Through a file's bytes and the scene's JSON, as a run that is resumed.
+Simulation resumed(const Simulation& simulation) {
+  const Checkpoint read =
+      decode_checkpoint(encode_checkpoint({"1", "x", to_json(simulation.scene()), "{}", simulation.state()}), "c");
+  return {read_resolved_text(read.scene_json, "c").scene, read.state};
+}
+
+TEST(Checkpoint, GoesOnBitForBitWithEverySolver) {
+  for (const Pressure& solver : one_of_each(Pressure{})) {
+    Scene scene = busy();
+    scene.pressure = solver;
+    scene.forces = {SurfaceFeature{}};
+    Simulation whole(scene);
+    take(whole, 60);
+    Simulation second = resumed(whole);
+    test::expect_same(whole, second, name(solver) + " when read");
+    take(whole, 60);
+    take(second, 60);
+    EXPECT_GT(whole.totals().out, 0) << "or the domain would not be tested";
+    EXPECT_GT(whole.totals().emitted, 9) << "or the emitter would not be tested";
+    test::expect_same(whole, second, name(solver) + " 60 steps later");
+  }
+}
+
+TEST(Checkpoint, GoesOnBitForBitWithEveryForce) {
+  for (const Force& force : one_of_each(Force{})) {
+    Scene scene = busy();
+    scene.forces = {force};
+    Simulation whole(scene);
+    take(whole, 30);
+    Simulation second = resumed(whole);
+    take(whole, 30);
+    take(second, 30);
+    test::expect_same(whole, second, name(force));
+  }
+}
+
+// The first step reads what the constructor leaves, so that a state from before any step must do too.
+TEST(Checkpoint, GoesOnFromTheStart) {
+  Simulation whole(busy());
+  Simulation second = resumed(whole);
+  take(whole, 3);
+  take(second, 3);
+  test::expect_same(whole, second, "from the start");
+}
+
+TEST(Checkpoint, HoldsNoParticlesToo) {
+  Scene scene = busy();
+  scene.bodies.clear();
+  scene.emitters[0].start = 0.5;
+  Simulation empty(scene);
+  take(empty, 2);
+  Simulation second = resumed(empty);
+  EXPECT_EQ(second.particles().size(), 0U);
+  EXPECT_EQ(second.time(), empty.time());
+}
+
+struct CheckpointFile : testing::Test {
+  static std::string bytes() {
+    Simulation simulation(busy());
+    take(simulation, 5);
+    return encode_checkpoint({"0.1.0", "x86-64", to_json(simulation.scene()), R"({"frames": 3})", simulation.state()});
+  }
+  static std::string fault(const std::string& bytes, std::uint64_t most = 0) {
+    try {
+      decode_checkpoint(bytes, "file", most);
+    } catch (const FileError& e) {
+      return e.what();
+    }
+    return "none";
+  }
+};
+
+TEST_F(CheckpointFile, SaysWhatIsWrong) {
+  const std::string good = bytes();
+  ASSERT_EQ(fault(good), "none");
+  EXPECT_EQ(fault(""), "file: is no checkpoint of Sessile");
+  EXPECT_EQ(fault("{\"spacing\": 1}, and more than 32 bytes of it"), "file: is no checkpoint of Sessile");
+  EXPECT_EQ(fault(good.substr(0, 20)), "file: this checkpoint is cut short");
+  std::string newer = good;
+  newer[8] = 2;
+  EXPECT_EQ(fault(newer),
+            "file: this checkpoint is of format 2, and this program reads up to format 1: a newer Sessile goes on from "
+            "it");
+  EXPECT_NE(fault(good, 1000).find("more than there is memory for"), std::string::npos) << fault(good, 1000);
+}
+
+TEST_F(CheckpointFile, FindsEveryDamage) {
+  const std::string good = bytes();
+  for (std::size_t length = 32; length < good.size(); length += 97) {
+    EXPECT_NE(fault(good.substr(0, length)).find("damaged or cut short"), std::string::npos) << length;
+  }
+  for (std::size_t place = 12; place < good.size(); place += 31) {
+    std::string flipped = good;
+    flipped[place] = static_cast<char>(flipped[place] ^ 1);
+    EXPECT_NE(fault(flipped).find("damaged or cut short"), std::string::npos) << place;
+  }
+}
+
+TEST_F(CheckpointFile, IsToldFromOtherFiles) {
+  const auto folder = std::filesystem::path(testing::TempDir());
+  const auto file = folder / "is_checkpoint";
+  std::ofstream(file, std::ios::binary) << bytes();
+  EXPECT_TRUE(is_checkpoint(file));
+  EXPECT_EQ(read_checkpoint(file).session, R"({"frames": 3})");
+  std::ofstream(file, std::ios::binary) << "SESSILE";
+  EXPECT_FALSE(is_checkpoint(file));
+  EXPECT_FALSE(is_checkpoint(folder));
+  EXPECT_THROW(read_checkpoint(folder), FileError);
+  std::filesystem::remove(file);
+}
+
+std::string refusal(const Scene& scene, const SimulationState& state) {
+  try {
+    const Simulation simulation(scene, state);
+  } catch (const SceneError& e) {
+    return e.what();
+  }
+  return "none";
+}
+
+TEST(SimulationState, IsRefusedByAnotherScene) {
+  const Scene scene = busy();
+  const SimulationState state = Simulation(scene).state();
+  ASSERT_EQ(refusal(scene, state), "none");
+  Scene other = scene;
+  other.solids[0].shape = Plate{1.6, 2.2};
+  EXPECT_NE(refusal(other, state).find("the solids are not those of the state"), std::string::npos);
+  other = scene;
+  other.emitters.clear();
+  EXPECT_NE(refusal(other, state).find("1 emitters, the scene 0"), std::string::npos) << refusal(other, state);
+  SimulationState torn = state;
+  torn.particles.pressure.pop_back();
+  EXPECT_NE(refusal(scene, torn).find("different lengths"), std::string::npos);
+  torn = state;
+  torn.particles.velocity.y[3] = std::numeric_limits<Real>::quiet_NaN();
+  EXPECT_NE(refusal(scene, torn).find("not finite"), std::string::npos);
+  torn = state;
+  torn.time = -1;
+  EXPECT_NE(refusal(scene, torn).find("no time"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sessile
