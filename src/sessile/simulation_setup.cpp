@@ -24,9 +24,6 @@ namespace {
 // Particles this close to each other or to a boundary particle at the start would be flung apart [dx].
 constexpr double least_distance = 0.5;
 
-// Measured memory of a particle with 30 neighbours, in bytes, rounded up.
-constexpr double bytes_per_particle = 600;
-
 void refuse_what_does_not_fit(const Scene& scene) {
   double particles = 0;
   for (const Body& body : scene.bodies) particles += estimate_fill(body, scene.spacing);
@@ -36,11 +33,12 @@ void refuse_what_does_not_fit(const Scene& scene) {
     for (const Solid& wall : domain_walls(*scene.domain)) particles += estimate_surface(wall, scene.spacing);
   }
   const MemoryLimit memory = memory_limit();
-  if (!(particles * bytes_per_particle <= memory.bytes)) {
+  const double needed = estimated_bytes(particles, scene.support);
+  if (!(needed <= memory.bytes)) {
     throw SceneError(
         fmt::format("the scene needs about {:.3g} particles and boundary particles, that is {:.3g} GiB; {} {:.3g} GiB "
                     "(a larger spacing needs fewer)",
-                    particles, particles * bytes_per_particle / (1 << 30), memory.what, memory.bytes / (1 << 30)));
+                    particles, needed / (1 << 30), memory.what, memory.bytes / (1 << 30)));
   }
   check_count(particles, "the scene, with its boundary particles,");
 }

@@ -5,8 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
+#include <numbers>
 #include <string_view>
+
+#include "sessile/core/real.h"
 
 namespace sessile {
 namespace {
@@ -29,6 +33,13 @@ void lower_by_groups(MemoryLimit& limit, const fs::path& root, fs::path group, c
 }
 
 }  // namespace
+
+double estimated_bytes(double particles, double support) {
+  constexpr double fields = 450 / sizeof(float) * sizeof(Real);  // arrays, and copies of them in frames on their way
+  constexpr double fill = 1.15;  // lists are as long as the longest of their group, and grow by eighths
+  const double neighbors = 4 * std::numbers::pi / 3 * support * support * support;
+  return particles * (fields + fill * sizeof(std::int32_t) * neighbors);
+}
 
 MemoryLimit memory_limit(const fs::path& groups_of_process, const fs::path& groups) {
   MemoryLimit limit{static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)),
