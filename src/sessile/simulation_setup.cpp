@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
@@ -10,9 +9,11 @@
 #include <set>
 
 #include "sessile/core/error.h"
+#include "sessile/core/memory_limit.h"
 #include "sessile/forces/viscosity.h"
 #include "sessile/neighbors/step_view.h"
 #include "sessile/pressure/pressure_force.h"
+#include "sessile/scene/lattice.h"
 #include "sessile/scene/tuning.h"
 #include "sessile/scene/validate.h"
 #include "sessile/simulation.h"
@@ -23,9 +24,6 @@ namespace {
 // Particles this close to each other or to a boundary particle at the start would be flung apart [dx].
 constexpr double least_distance = 0.5;
 
-// Measured memory of a particle with 30 neighbours, in bytes, rounded up.
-constexpr double bytes_per_particle = 600;
-
 void refuse_what_does_not_fit(const Scene& scene) {
   double particles = 0;
   for (const Body& body : scene.bodies) particles += estimate_fill(body, scene.spacing);
@@ -34,13 +32,15 @@ void refuse_what_does_not_fit(const Scene& scene) {
   if (scene.domain) {
     for (const Solid& wall : domain_walls(*scene.domain)) particles += estimate_surface(wall, scene.spacing);
   }
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (!(particles <= 2e9) || particles * bytes_per_particle > memory) {
+  const MemoryLimit memory = memory_limit();
+  const double needed = estimated_bytes(particles, scene.support);
+  if (!(needed <= memory.bytes)) {
     throw SceneError(
-        fmt::format("the scene needs about {:.3g} particles and boundary particles, that is {:.3g} GiB; this "
-                    "machine has {:.3g} GiB (a larger spacing needs fewer)",
-                    particles, particles * bytes_per_particle / (1 << 30), memory / (1 << 30)));
+        fmt::format("the scene needs about {:.3g} particles and boundary particles, that is {:.3g} GiB; {} {:.3g} GiB "
+                    "(a larger spacing needs fewer)",
+                    particles, needed / (1 << 30), memory.what, memory.bytes / (1 << 30)));
   }
+  check_count(particles, "the scene, with its boundary particles,");
 }
 
 std::string name_of(const std::string& label, const char* kind, std::size_t index) {
@@ -212,7 +212,9 @@ void Simulation::fill_bodies() {
   for (std::size_t k = 0; k < scene_.bodies.size(); ++k) {
     const Body& body = scene_.bodies[k];
     names.push_back(name_of(body.label, "bodies", k));
-    for (const Vec3d& place : fill(body, scene_.spacing)) {
+    const std::vector<Vec3d> places = fill(body, scene_.spacing);
+    check_count(static_cast<double>(particles_.size() + places.size()), "the scene's bodies");
+    for (const Vec3d& place : places) {
       const Vec3d velocity = body.velocity + cross(body.spin, place - body.placement.position);
       particles_.add(vec_cast<Real>(place), vec_cast<Real>(velocity), static_cast<Real>(body.mass_factor), next_id_++);
       owner.push_back(names.size() - 1);

@@ -139,7 +139,7 @@ class WholeScenes(SceneFaults):
         for size in ("[300, 300, 300]", "[1e5, 1e5, 1e5]"):
             lines = self.refused("run", self.write(HEAD + BODY + "}"), "--set", f"bodies[0].shape.size={size}")
             self.assertEqual(len(lines), 1)
-            self.assertRegex(lines[0], r"^s\.json: .*(GiB; this machine has .* GiB|2147483647)")
+            self.assertRegex(lines[0], r"^s\.json: .*(GiB; this machine has .* GiB|2000000000)")
 
 
 if __name__ == "__main__":

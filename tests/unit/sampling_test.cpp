@@ -123,9 +123,9 @@ TEST(Fill, RefusesWhatItCannotHold) {
   Body body = body_of(Box{{1, 1, 0.01}});
   EXPECT_EQ(message(body, 0.1), "body (box): is too small to hold a particle of spacing 0.1 m");
   body.label = "sea";
-  EXPECT_EQ(message(body, 1e-6), "body \"sea\" (box): needs more than 2147483647 points at this spacing");
+  EXPECT_EQ(message(body, 1e-6), "body \"sea\" (box): needs more than 2000000000 points at this spacing");
   body.shape = Box{{1e300, 1e300, 1e300}};
-  EXPECT_EQ(message(body, 1e-6), "body \"sea\" (box): needs more than 2147483647 points at this spacing");
+  EXPECT_EQ(message(body, 1e-6), "body \"sea\" (box): needs more than 2000000000 points at this spacing");
 }
 
 TEST(Layer, IsAFlatLattice) {

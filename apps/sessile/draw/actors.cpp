@@ -1,10 +1,16 @@
 #include "draw/actors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
+
+#include "sessile/core/error.h"
 
 namespace sessile::draw {
 namespace {
@@ -17,6 +23,14 @@ Vec3d face_normal(const TriangleMesh& mesh, std::size_t face) {
   const auto& t = mesh.triangles[face];
   return cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
 }
+
+/// A count as OpenGL takes it. Throws Error where that is more than it draws at once.
+int drawn_count(std::size_t count, std::int64_t most, std::string_view things) {
+  if (count <= static_cast<std::size_t>(most)) return static_cast<int>(count);
+  throw Error(fmt::format("the graphics driver draws at most {} {} at once, and there are {}", most, things, count));
+}
+
+constexpr std::int64_t most_corners = std::numeric_limits<GLsizei>::max();
 
 /// The triangles' corners one by one, each with the mean normal of the faces that meet there and belong to one round
 /// surface.
@@ -94,7 +108,9 @@ Spheres::Spheres() {
 
 void Spheres::show(const Moment& moment) {
   const std::size_t n = moment.points.size() / 3;
-  count_ = static_cast<int>(n);
+  GLint most_texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
+  count_ = drawn_count(n, std::min<std::int64_t>(most_texels, most_corners / 3), "particles");
   glBindBuffer(GL_TEXTURE_BUFFER, numbers_.name());
   glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(n, 1) * 4 * sizeof(float)), nullptr,
                GL_STREAM_DRAW);
@@ -127,8 +143,8 @@ Solids::Solids(const Stage& stage) {
     const bool holds_liquid = solid.mesh.closed() && solid.mesh.volume() < 0;
     add_corners(solid.mesh, holds_liquid ? inward : two_sided);
   }
-  two_sided_ = static_cast<int>(two_sided.size() / 6);
-  inward_ = static_cast<int>(inward.size() / 6);
+  two_sided_ = drawn_count(two_sided.size() / 6, most_corners, "corners of solids");
+  inward_ = drawn_count(inward.size() / 6, most_corners - two_sided_, "corners of containers");
   two_sided.insert(two_sided.end(), inward.begin(), inward.end());
   glBindVertexArray(array_.name());
   gl::upload(GL_ARRAY_BUFFER, corners_, two_sided.data(), two_sided.size() * sizeof(float));
@@ -155,7 +171,7 @@ Skin::Skin() {
 }
 
 void Skin::show(const SurfaceMesh& mesh) {
-  count_ = static_cast<int>(mesh.triangles.size());
+  count_ = drawn_count(mesh.triangles.size(), most_corners, "corners of a surface");
   glBindVertexArray(array_.name());
   gl::upload(GL_ARRAY_BUFFER, places_, mesh.points.data(), mesh.points.size() * sizeof(float));
   gl::upload(GL_ARRAY_BUFFER, normals_, mesh.normals.data(), mesh.normals.size() * sizeof(float));

@@ -6,6 +6,7 @@
 #include <openvdb/tools/MeshToVolume.h>
 #include <tbb/global_control.h>
 
+#include <cmath>
 #include <cstddef>
 #include <system_error>
 #include <vector>
@@ -15,6 +16,16 @@
 
 namespace sessile::app {
 namespace {
+
+/// OpenVDB numbers voxels by int32, and looks some voxels around each triangle.
+void check_extent(const SurfaceMesh& mesh, double voxel) {
+  constexpr double most_voxels = 2e9;
+  for (const float x : mesh.points) {
+    if (std::abs(static_cast<double>(x)) < most_voxels * voxel) continue;
+    throw FileError(
+        fmt::format("the surface reaches out to {:g} m, where OpenVDB cannot number voxels of {:g} m", x, voxel));
+  }
+}
 
 openvdb::FloatGrid::Ptr level_set(const SurfaceMesh& mesh, double voxel) {
   std::vector<openvdb::Vec3s> points;
@@ -37,6 +48,7 @@ openvdb::FloatGrid::Ptr level_set(const SurfaceMesh& mesh, double voxel) {
 }  // namespace
 
 void write_vdb(const std::filesystem::path& file, const SurfaceMesh& mesh, double voxel) {
+  check_extent(mesh, voxel);
   openvdb::initialize();
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(omp_get_max_threads()));

@@ -221,9 +221,22 @@ inline std::pair<Lanes, Lanes> gather_pairs(const Real* data, const IndexLanes& 
   };
   return {in_order(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0))),
           in_order(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)))};
+#elif defined(__SSE2__) && !defined(SESSILE_DOUBLE)
+  // Not by 2j in the lanes, which has 32 bits.
+  alignas(16) std::int32_t at[4];
+  j.store_aligned(at);
+  const auto pair = [&](int k) { return data + 2 * std::ptrdiff_t{at[k]}; };
+  const Real *const a = pair(0), *const b = pair(1), *const c = pair(2), *const d = pair(3);
+  return {_mm_setr_ps(a[0], b[0], c[0], d[0]), _mm_setr_ps(a[1], b[1], c[1], d[1])};
 #else
-  const IndexLanes twice = j + j;
-  return {gather(data, twice), gather(data + 1, twice)};
+  alignas(64) LaneIndex at[lane_count];
+  alignas(64) Real first[lane_count], second[lane_count];
+  j.store_aligned(at);
+  for (int k = 0; k < lane_count; ++k) {
+    first[k] = data[2 * std::ptrdiff_t{at[k]}];
+    second[k] = data[2 * std::ptrdiff_t{at[k]} + 1];
+  }
+  return {Lanes::load_aligned(first), Lanes::load_aligned(second)};
 #endif
 }
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <type_traits>
 #include <vector>
 
+#include "sessile/core/bounds.h"
+#include "sessile/core/error.h"
 #include "sessile/core/first_error.h"
 
 namespace sessile {
@@ -30,9 +33,15 @@ void for_each_block(std::size_t n, F&& f) {
   error.rethrow();
 }
 
+/// Throws RunError where an int would not hold 0 ... n-1. Nothing that large should get here.
+inline void check_indices(std::size_t n) {
+  if (n > most_indices) throw RunError("more than " + std::to_string(most_indices) + " things cannot be numbered");
+}
+
 /// Calls kernel(i) for i = 0 ... n-1, on all threads.
 template <class Kernel>
 void for_each(std::size_t n, const Kernel& kernel) {
+  check_indices(n);
   for_each_block(n, [&](std::ptrdiff_t, std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto i = begin; i < end; ++i) kernel(static_cast<int>(i));
   });
@@ -42,6 +51,7 @@ void for_each(std::size_t n, const Kernel& kernel) {
 template <class T, class Value, class Join>
 T reduce(std::size_t n, const T& start, const Value& value, const Join& join) {
   static_assert(!std::is_same_v<T, bool>, "threads cannot write neighbouring bits of a std::vector<bool>");
+  check_indices(n);
   std::vector<T> parts(static_cast<std::size_t>(block_count(n)), start);
   for_each_block(n, [&](std::ptrdiff_t block, std::ptrdiff_t begin, std::ptrdiff_t end) {
     T part = start;

@@ -1,20 +1,25 @@
 #include "sessile/core/radix_sort.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace sessile {
 
+void counts_to_starts(std::span<DigitCounts> chunks) {
+  std::int32_t start = 0;
+  for (std::size_t digit = 0; digit < std::tuple_size_v<DigitCounts>; ++digit) {
+    for (DigitCounts& count : chunks) start += std::exchange(count[digit], start);
+  }
+}
+
 void radix_sort(Array<KeyedPlace>& items, Array<KeyedPlace>& scratch, int bits) {
   constexpr std::ptrdiff_t chunk = 1 << 15;
-  constexpr int digit_bits = 10;
   constexpr std::size_t digits = std::size_t{1} << digit_bits;
   const auto n = static_cast<std::ptrdiff_t>(items.size());
   const std::ptrdiff_t chunks = (n + chunk - 1) / chunk;
-  std::vector<std::array<std::int32_t, digits>> counts(static_cast<std::size_t>(chunks));
+  std::vector<DigitCounts> counts(static_cast<std::size_t>(chunks));
   scratch.resize(items.size());
 
   for (int shift = 0; shift < bits; shift += digit_bits) {
@@ -26,10 +31,7 @@ void radix_sort(Array<KeyedPlace>& items, Array<KeyedPlace>& scratch, int bits) 
       for (auto k = c * chunk; k < std::min(n, (c + 1) * chunk); ++k)
         ++count[digit(items[static_cast<std::size_t>(k)])];
     }
-    std::int32_t start = 0;
-    for (std::size_t d = 0; d < digits; ++d) {
-      for (auto& count : counts) start += std::exchange(count[d], start);
-    }
+    counts_to_starts(counts);
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t c = 0; c < chunks; ++c) {
       auto& next = counts[static_cast<std::size_t>(c)];

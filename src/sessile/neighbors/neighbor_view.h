@@ -12,6 +12,7 @@ namespace sessile {
 template <class Kernel>
 void for_each_group(std::size_t n, const Kernel& kernel) {
   static_assert(block_size % lane_count == 0, "a group lies in one block");
+  check_indices(n);
   for_each_block(n, [&](std::ptrdiff_t, std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto i = begin; i < end; i += lane_count) kernel(Group{static_cast<int>(i)});
   });

@@ -1,8 +1,12 @@
 #include "sessile/neighbors/neighbors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
+#include "sessile/core/bounds.h"
+#include "sessile/core/error.h"
 #include "sessile/core/lanes.h"
 #include "sessile/core/parallel.h"
 
@@ -109,9 +113,22 @@ class Found {
 
 }  // namespace
 
+void refuse_crowding(std::size_t points_in_a_cell) {
+  if (points_in_a_cell <= most_in_a_cell) return;
+  throw RunError(
+      fmt::format("{} particles crowd into one cube with an edge of the support radius, where {} are the most that "
+                  "neighbours can be found for: the liquid has collapsed, which shorter steps may prevent",
+                  points_in_a_cell, most_in_a_cell));
+}
+
 void NeighborList::build(const SortedPoints& points, const SortedPoints& others, const Space& space, Real radius) {
   static_assert(block_size % lane_count == 0, "a group lies in one block");
   const bool same = &points.position == &others.position;
+  const auto held = [&](int cell) {
+    const PlaceRange places = others.grid.places(static_cast<std::size_t>(cell));
+    return static_cast<double>(places.end - places.begin);
+  };
+  refuse_crowding(static_cast<std::size_t>(maximum(others.grid.cell_count(), held)));
   size_ = points.position.size();
   lanes_ = lane_count;
   const std::size_t group_count = (size_ + lane_count - 1) / lane_count;

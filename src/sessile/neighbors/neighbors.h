@@ -60,6 +60,9 @@ struct NeighborGroup {
   std::int32_t longest = 0;
 };
 
+/// Throws RunError where so many points lie in one cell that lists of them would not be told apart from others.
+void refuse_crowding(std::size_t points_in_a_cell);
+
 /// Points in the order of their grid.
 struct SortedPoints {
   const Array3& position;
@@ -77,7 +80,8 @@ class NeighborList {
   }
 
   /// Finds, for every one of `points`, those of `others` with |x_i - x_j| < radius, which is at most a cell of their
-  /// grids. When both are the same set, each point is left out of its own list.
+  /// grids. When both are the same set, each point is left out of its own list. Throws RunError where more than
+  /// most_in_a_cell points crowd into one cell.
   void build(const SortedPoints& points, const SortedPoints& others, const Space& space, Real radius);
 
   const NeighborGroup* groups() const { return groups_.data(); }

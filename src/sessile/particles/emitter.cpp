@@ -1,7 +1,10 @@
 #include "sessile/particles/emitter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "sessile/core/error.h"
 #include "sessile/core/parallel.h"
 #include "sessile/scene/sampling.h"
 
@@ -60,10 +63,17 @@ bool LayerSource::taken(const Particles& particles) const {
   return maximum(particles.size(), [&](int i) { return close(i) ? 1.0 : 0.0; }) > 0;
 }
 
-Emission LayerSource::emit(double time, Particles& particles, std::int64_t& next_id) {
+Emission LayerSource::emit(double time, Particles& particles, std::int64_t& next_id, std::size_t most) {
   const std::optional<double> when = due();
   if (!when || time < *when) return Emission::not_due;
   if (taken(particles)) return std::exchange(progress_.waiting, true) ? Emission::waiting : Emission::began_to_wait;
+  if (places_.size() > most || particles.size() > most - places_.size()) {
+    throw RunError(fmt::format(
+        "at {:g} s {} would let {} particles in to {} others; there may be {} in all (give it a count or an "
+        "end, or the domain open faces)",
+        time, emitter_.label.empty() ? "an emitter" : "the emitter \"" + emitter_.label + "\"", places_.size(),
+        particles.size(), most));
+  }
   const Vec3r velocity = vec_cast<Real>(emitter_.velocity);
   for (std::size_t k = 0; k < places_.size(); ++k) {
     particles.add(places_[k], velocity, static_cast<Real>(emitter_.mass_factor), next_id++);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include "sessile/core/array.h"
+#include "sessile/core/bounds.h"
 #include "sessile/core/space.h"
 #include "sessile/neighbors/grid.h"
 #include "sessile/particles/particles.h"
@@ -26,8 +28,9 @@ class LayerSource {
   LayerSource(const Emitter& emitter, double spacing, const Space& space);
 
   /// Lets in the next layer when its time has come and its place is free, that is, no particle is closer than 0.9 dx
-  /// to any of its places. Ids count on from `next_id`.
-  Emission emit(double time, Particles& particles, std::int64_t& next_id);
+  /// to any of its places. Ids count on from `next_id`. Throws RunError, and lets nothing in, where there would be more
+  /// than `most` particles.
+  Emission emit(double time, Particles& particles, std::int64_t& next_id, std::size_t most = most_indices);
 
   const Array3& places() const { return places_; }
   std::int64_t emitted_layers() const { return progress_.emitted; }

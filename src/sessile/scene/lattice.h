@@ -2,16 +2,13 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 
+#include "sessile/core/bounds.h"
 #include "sessile/core/error.h"
 
 namespace sessile {
-
-/// Most particles or samples: they are numbered by int32.
-inline constexpr double most_points = std::numeric_limits<std::int32_t>::max();
 
 /// How many steps of `spacing` fit into a length, rounded; as a number, because it may be beyond any integer.
 inline double steps_in(double length, double spacing) { return std::round(length / spacing); }
@@ -26,9 +23,11 @@ inline std::string called(std::string_view what, const std::string& label, std::
   return std::string(what) + (label.empty() ? "" : " \"" + label + "\"") + " (" + std::string(shape) + ")";
 }
 
-/// Throws SceneError when there are more points than can be numbered.
+/// Throws SceneError when there are more points than can be numbered; a count that is no number is too many as well.
 inline void check_count(double count, const std::string& who) {
-  if (!(count <= most_points)) throw SceneError(who + ": needs more than 2147483647 points at this spacing");
+  if (!(count <= static_cast<double>(most_indices))) {
+    throw SceneError(who + ": needs more than " + std::to_string(most_indices) + " points at this spacing");
+  }
 }
 
 }  // namespace sessile

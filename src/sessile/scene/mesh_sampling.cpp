@@ -28,7 +28,7 @@ class SampleSet {
     const Cell cell = cell_of(point);
     if (!free(point, cell)) return;
     next_.push_back(-1);
-    const auto index = static_cast<std::int32_t>(points_.size());
+    const auto index = static_cast<std::int64_t>(points_.size());
     const auto [head, fresh] = heads_.emplace(cell, index);
     if (!fresh) next_.back() = std::exchange(head->second, index);
     points_.push_back(point);
@@ -68,8 +68,8 @@ class SampleSet {
   Vec3d origin_;
   double distance_;
   std::vector<Vec3d> points_;
-  std::vector<std::int32_t> next_;  // the next sample of the same cell
-  std::unordered_map<Cell, std::int32_t, Hash> heads_;
+  std::vector<std::int64_t> next_;  // the next sample of the same cell
+  std::unordered_map<Cell, std::int64_t, Hash> heads_;
 };
 
 /// Calls f(point) on rows parallel to the triangle's longest edge. Rows and points follow the triangle's own height and

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sessile/core/bounds.h"
 #include "sessile/core/error.h"
 #include "sessile/core/parallel.h"
 
@@ -17,6 +18,13 @@ double longest_reach(const Blobs& blobs) {
   return maximum(blobs.size(), [&](int i) {
     const Vec3<float>& reach = blobs.blobs[static_cast<std::size_t>(i)].reach;
     return static_cast<double>(std::max({reach.x, reach.y, reach.z}));
+  });
+}
+
+double farthest_coordinate(const Blobs& blobs) {
+  return maximum(blobs.size(), [&](int i) {
+    const Vec3r at = blobs.centers[static_cast<std::size_t>(i)];
+    return static_cast<double>(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}));
   });
 }
 
@@ -45,6 +53,9 @@ struct BlockRange {
 }  // namespace
 
 BlockMap::BlockMap(Blobs& blobs, double cube) : cube_(cube) {
+  if (!(farthest_coordinate(blobs) < 1e18 * cube)) {
+    throw Error("no surface: a particle lies so far out that the surface's grid cannot be numbered there");
+  }
   const double farthest = longest_reach(blobs) / cube + 2;  // in points, and to the neighbours of the last
   if (!(farthest < 200)) {
     throw Error("the surface's grid is too fine for kernels that wide; make cube_size greater");
@@ -96,6 +107,7 @@ void BlockMap::find_blocks(const Blobs& blobs) {
   for (const auto& some : found) places_.insert(places_.end(), some.begin(), some.end());
   std::sort(places_.begin(), places_.end());
   places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+  if (places_.size() > most_indices) throw Error("the surface's grid has too many points; make cube_size greater");
 }
 
 void BlockMap::link() {

@@ -1,10 +1,12 @@
 #include "sessile/surface/march.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstddef>
-#include <limits>
 
+#include "sessile/core/bounds.h"
 #include "sessile/core/error.h"
 #include "sessile/core/first_error.h"
 #include "sessile/surface/cube_table.h"
@@ -129,9 +131,7 @@ class Marcher {
         }
       }
     }
-    if (vertices > std::numeric_limits<std::uint32_t>::max()) {
-      throw Error("the surface would have more than 4 billion vertices; make cube_size greater");
-    }
+    check_surface_size(vertices, triangles);
     mesh_.points.resize(3 * vertices);
     mesh_.triangles.resize(3 * triangles);
   }
@@ -209,6 +209,15 @@ class Marcher {
 };
 
 }  // namespace
+
+void check_surface_size(std::uint64_t vertices, std::uint64_t triangles) {
+  const std::uint64_t larger = std::max(vertices, triangles);
+  if (larger <= most_indices) return;
+  throw Error(
+      fmt::format("the surface would have {} vertices and {} triangles, where {} of each can be numbered; make "
+                  "cube_size greater",
+                  vertices, triangles, most_indices));
+}
 
 SurfaceMesh march(const BlockMap& map, const BlockField& field, double unit) { return Marcher(map, field, unit).run(); }
 

@@ -3,6 +3,7 @@
 #include "sessile/core/views.h"
 #include "sessile/kernels/cubic_spline.h"
 #include "sessile/neighbors/neighbor_view.h"
+#include "sessile/scene/lattice.h"
 #include "sessile/scene/sampling.h"
 
 namespace sessile {
@@ -21,7 +22,9 @@ Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const Gri
   Walls walls;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     const Solid& solid = solids[k];
-    for (const Vec3d& place : sample_surface(solid, scene.spacing)) {
+    const std::vector<Vec3d> places = sample_surface(solid, scene.spacing);
+    check_count(static_cast<double>(walls.size() + places.size()), "the scene's solids");
+    for (const Vec3d& place : places) {
       walls.position.push_back(vec_cast<Real>(place));
       walls.solid.push_back(static_cast<std::int32_t>(k));
     }
