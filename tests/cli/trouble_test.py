@@ -36,7 +36,7 @@ class Interrupted(Good):
         process.send_signal(which)
         out, err = process.communicate(timeout=30)
         self.assertEqual(process.returncode, ended_by(which))
-        self.assertRegex(err, r"\Ainterrupted; everything up to [\d.e+]+ s is written\n\Z")
+        self.assertRegex(err, r"\Ainterrupted; everything up to [\d.e+]+ s is written, and it goes on with: sessile run --resume out\n\Z")
         self.assertRegex(out, r"\d+ frames, stats.csv and summary.json are in out\n\Z")
         summary, frames = self.expect_good_results("out", "interrupted")
         self.assertAlmostEqual(frames[-1][0], summary["simulated_time_s"], places=6)

@@ -59,7 +59,7 @@ class WrongUsage(CliTest):
 
     def test_options(self):
         scene = self.write(tiny())
-        self.expect(["run"], "scene is required")
+        self.expect(["run"], "a SCENE, or --resume DIR, is required")
         self.expect(["check"], "scene is required")
         self.expect(["run", scene, "--thread=1"], "The following argument was not expected: --thread=1")
         self.expect(["run", scene, "other.json"], "The following argument was not expected: other.json")

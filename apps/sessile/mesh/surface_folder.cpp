@@ -99,6 +99,7 @@ SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scen
     : folder_(std::move(folder)),
       lock_(folder_),
       plan_(std::move(plan)),
+      resumable_(keep.has_value()),
       formats_(formats_named(plan_.formats)),
       solids_(solid_meshes(scene)) {
   index_.source = fs::absolute(source).lexically_normal().lexically_proximate(fs::absolute(folder_).lexically_normal());
@@ -180,6 +181,7 @@ void SurfaceFolder::write(std::int64_t number, const SurfaceMesh& mesh,
   for (const SurfaceFormat* format : formats) {
     if (is_sequence(*format)) {
       if (!sequence_) sequence_.emplace(folder_ / sequence_file, plan_.frames_per_second);
+      if (resumable_) sequence_->leave_parts();
       sequence_->add(mesh);
       sequence_frames_.push_back(number);
       continue;

@@ -75,6 +75,7 @@ class SurfaceFolder {
   std::filesystem::path folder_;
   FolderLock lock_;
   SurfacePlan plan_;
+  bool resumable_;  // whether a run writes here, that may go on one day
   std::vector<const SurfaceFormat*> formats_;
   std::vector<SolidMesh> solids_;
   SurfaceIndex index_;

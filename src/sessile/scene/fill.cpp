@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <numbers>
@@ -23,6 +24,7 @@ template <class Inside>
 std::vector<Vec3d> lattice(const Vec3d& centre, const Vec3d& size, double spacing, const std::string& who,
                            Inside&& inside) {
   const std::array<double, 3> counts{steps_in(size.x, spacing), steps_in(size.y, spacing), steps_in(size.z, spacing)};
+  if (std::min({counts[0], counts[1], counts[2]}) < 1) return {};  // thinner than half a particle, however long
   check_count(counts[0] * counts[1] * counts[2], who);
   const auto nx = static_cast<std::int64_t>(counts[0]), ny = static_cast<std::int64_t>(counts[1]),
              nz = static_cast<std::int64_t>(counts[2]);
@@ -150,6 +152,19 @@ double estimate_fill(const Body& body, double spacing) {
       },
       body.shape);
   return volume / spacing / spacing / spacing;
+}
+
+double estimate_layer(const Emitter& emitter, double spacing) {
+  const double area = std::visit(
+      []<Named T>(const T& shape) {
+        if constexpr (std::is_same_v<T, Disc>) {
+          return std::numbers::pi * shape.radius * shape.radius;
+        } else {
+          return shape.width * shape.depth;
+        }
+      },
+      emitter.shape);
+  return area / spacing / spacing;
 }
 
 }  // namespace sessile
