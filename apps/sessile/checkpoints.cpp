@@ -71,7 +71,8 @@ bool Checkpoints::due(const Simulation& simulation) const {
 }
 
 void Checkpoints::write(const Simulation& simulation, const std::string& session) {
-  create_output_folder(folder_);
+  std::error_code error;
+  fs::create_directory(folder_, error);  // not the folder above: that one is only missing when somebody took it away
   sync_folder(folder_.parent_path());  // a checkpoint must not outlast, in a power cut, the files that it goes on with
   const fs::path surfaces = folder_.parent_path() / surface_folder_name;
   if (fs::is_directory(surfaces)) sync_folder(surfaces);

@@ -1,7 +1,9 @@
 #include "resume.h"
 
 #include <fmt/format.h>
+#include <json/json.h>
 
+#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -63,6 +65,13 @@ Resumable open_run(const ResumeOptions& options) {
   Simulation simulation(before, std::move(checkpoint.state));
   simulation.retune(wanted);
   return {std::move(simulation), std::move(session), std::move(notes)};
+}
+
+bool is_complete(const std::filesystem::path& results) {
+  std::ifstream file(results / "summary.json");
+  Json::Value summary;
+  return Json::parseFromStream(Json::CharReaderBuilder(), file, &summary, nullptr) && summary.isObject() &&
+         summary["status"] == std::string(word(RunStatus::done));
 }
 
 void drop_newer_checkpoints(const ResumeOptions& options, const Resumable& run) {

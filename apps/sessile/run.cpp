@@ -14,6 +14,7 @@
 #include "resume.h"
 #include "run_options.h"
 #include "say.h"
+#include "sessile/core/error.h"
 #include "session.h"
 #include "signals.h"
 
@@ -37,7 +38,9 @@ void print_end(const SessionResult& result, const std::string& folder) {
 /// A run that ended for a fault of the machine: what can be done about that, and then goes on where it was.
 int say_failure(const std::exception& fault, const std::string& folder) {
   tell(fault);
-  if (has_checkpoints(folder)) say(stderr, fmt::format("then go on with: sessile run --resume {}\n", folder));
+  const bool own_fault = dynamic_cast<const RunError*>(&fault) != nullptr;  // it would come again
+  if (!own_fault && has_checkpoints(folder))
+    say(stderr, fmt::format("then go on with: sessile run --resume {}\n", folder));
   return run_failed;
 }
 
@@ -82,7 +85,7 @@ int resume(RunOptions options, const std::string& folder, std::optional<double> 
   if (options.progress != "none") {
     for (const std::string& note : run.notes) say(stderr, "warning: " + note + "\n");
   }
-  if (run.simulation.finished()) {
+  if (run.simulation.finished() && is_complete(folder)) {
     say(stderr, fmt::format("{} is at {:.4g} s, its end; --until lets it go on\n", folder, run.simulation.time()));
     return done;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <tuple>
 #include <utility>
 
 #include "advice.h"
@@ -50,6 +51,16 @@ CheckpointOutput checkpoints_of(const Scene& scene, const SessionOptions& option
   return asked;
 }
 
+/// That the folder has gone tells more than what could not be written into it.
+std::pair<std::exception_ptr, std::string> why_gone(const FolderLock& lock) {
+  try {
+    lock.check();
+  } catch (const FileError& e) {
+    return {std::current_exception(), e.what()};
+  }
+  return {};
+}
+
 /// `start`: of the wall time that counts.
 SessionResult run_from(Simulation simulation, const SessionOptions& options, const StepWatch& watch,
                        const std::optional<SessionState>& before, const FolderLock& lock, Clock::time_point start) {
@@ -90,6 +101,7 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
     // What has been written stays good; the summary says how it ended, if the disk still takes it.
     result.error = std::current_exception();
     result.message = sentence(e);
+    if (!lock.in_place()) std::tie(result.error, result.message) = why_gone(lock);
     facts.status = result.status = RunStatus::failed;
     facts.message = result.message;
     facts.wall_time = wall();
