@@ -111,6 +111,8 @@ void Simulation::move(double dt) {
   totals_.energy.forces += units_.particle_mass() * all.forces;
   totals_.energy.pressure += units_.particle_mass() * all.pressure;
   last_step_.kinetic_energy = units_.particle_mass() * all.kinetic;
+  health_.step = totals_.steps + 1;
+  health_.time = time_ + dt;
   health_.not_finite = event(particles_, all.not_finite, all.first_not_finite);
   health_.passage = event(particles_, all.passages, all.first_passage);
   health_.escape = event(particles_, all.escapes, all.first_escape);
@@ -118,15 +120,31 @@ void Simulation::move(double dt) {
   health_.escaped = all.escaped;
   health_.thrown = event(particles_, 1, all.thrown);
   health_.throw_length = std::sqrt(all.throw2) * dt;
-  if (all.not_finite > 0) throw RunError(not_finite_text(dt));
+  if (all.not_finite > 0) refuse_places(dt);
 }
 
-std::string Simulation::not_finite_text(double dt) const {
+void Simulation::refuse_places(double dt) const {
   const ParticleEvent& first = health_.not_finite;
-  return fmt::format(
-      "{} of {} particles have no finite position after the step of {:g} s at {:g} s: the step is too long for these "
-      "forces. The first of them, particle {}, stood at ({:g}, {:g}, {:g}) m",
-      first.count, particles_.size(), dt, time_, first.id, first.position.x, first.position.y, first.position.z);
+  throw RunError(fmt::format(
+      "{} of {} particles have no finite position or pressure after the step of {:g} s at {:g} s: the step is too long "
+      "for these forces. The first of them, particle {}, stood at ({:g}, {:g}, {:g}) m",
+      first.count, particles_.size(), dt, time_, first.id, first.position.x, first.position.y, first.position.z));
+}
+
+void Simulation::refuse_velocities() {
+  int first = -1;
+  std::int64_t count = 0;
+  for (std::size_t k = particles_.size(); k-- > 0;) {
+    if (finite(particles_.velocity[k])) continue;
+    first = static_cast<int>(k);
+    ++count;
+  }
+  if (first < 0) return;  // a sum of great numbers; the next step will tell
+  health_.not_finite = event(particles_, count, first);
+  throw RunError(
+      fmt::format("{} of {} particles have no finite velocity after the divergence solve at {:g} s, first of "
+                  "them particle {}",
+                  count, particles_.size(), time_, particles_.id[static_cast<std::size_t>(first)]));
 }
 
 void Simulation::take_out_what_left() {
