@@ -29,12 +29,13 @@ constexpr double bytes_per_particle = 600;
 void refuse_what_does_not_fit(const Scene& scene) {
   double particles = 0;
   for (const Body& body : scene.bodies) particles += estimate_fill(body, scene.spacing);
+  for (const Emitter& emitter : scene.emitters) particles += estimate_layer(emitter, scene.spacing);
   for (const Solid& solid : scene.solids) particles += estimate_surface(solid, scene.spacing);
   if (scene.domain) {
     for (const Solid& wall : domain_walls(*scene.domain)) particles += estimate_surface(wall, scene.spacing);
   }
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (particles > 2e9 || particles * bytes_per_particle > memory) {
+  if (!(particles <= 2e9) || particles * bytes_per_particle > memory) {
     throw SceneError(
         fmt::format("the scene needs about {:.3g} particles and boundary particles, that is {:.3g} GiB; this "
                     "machine has {:.3g} GiB (a larger spacing needs fewer)",

@@ -12,7 +12,7 @@
 
 #include "sessile/checkpoint/archive.h"
 #include "sessile/core/error.h"
-#include "sessile/output/file.h"
+#include "sessile/output/durable.h"
 
 namespace sessile {
 namespace {
@@ -103,7 +103,7 @@ Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name, st
 }
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  write_whole(file, encode_checkpoint(checkpoint));
+  write_durably(file, encode_checkpoint(checkpoint));
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {

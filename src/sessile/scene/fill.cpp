@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <numbers>
@@ -7,6 +8,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "sessile/core/first_error.h"
 #include "sessile/scene/frame.h"
 #include "sessile/scene/lattice.h"
 #include "sessile/scene/mesh_space.h"
@@ -22,11 +24,13 @@ template <class Inside>
 std::vector<Vec3d> lattice(const Vec3d& centre, const Vec3d& size, double spacing, const std::string& who,
                            Inside&& inside) {
   const std::array<double, 3> counts{steps_in(size.x, spacing), steps_in(size.y, spacing), steps_in(size.z, spacing)};
+  if (std::min({counts[0], counts[1], counts[2]}) < 1) return {};  // thinner than half a particle, however long
   check_count(counts[0] * counts[1] * counts[2], who);
   const auto nx = static_cast<std::int64_t>(counts[0]), ny = static_cast<std::int64_t>(counts[1]),
              nz = static_cast<std::int64_t>(counts[2]);
   std::vector<Vec3d> points;
   std::vector<char> taken(static_cast<std::size_t>(nx * ny));
+  FirstError error;
   for (std::int64_t k = 0; k < nz; ++k) {
     const auto place = [&](std::int64_t i, std::int64_t j) {
       return centre +
@@ -34,8 +38,11 @@ std::vector<Vec3d> lattice(const Vec3d& centre, const Vec3d& size, double spacin
     };
 #pragma omp parallel for schedule(static)
     for (std::int64_t j = 0; j < ny; ++j) {
-      for (std::int64_t i = 0; i < nx; ++i) taken[static_cast<std::size_t>(j * nx + i)] = inside(place(i, j)) ? 1 : 0;
+      error.guard([&] {
+        for (std::int64_t i = 0; i < nx; ++i) taken[static_cast<std::size_t>(j * nx + i)] = inside(place(i, j)) ? 1 : 0;
+      });
     }
+    error.rethrow();
     for (std::int64_t j = 0; j < ny; ++j) {
       for (std::int64_t i = 0; i < nx; ++i) {
         if (taken[static_cast<std::size_t>(j * nx + i)] != 0) points.push_back(place(i, j));
@@ -145,6 +152,19 @@ double estimate_fill(const Body& body, double spacing) {
       },
       body.shape);
   return volume / spacing / spacing / spacing;
+}
+
+double estimate_layer(const Emitter& emitter, double spacing) {
+  const double area = std::visit(
+      []<Named T>(const T& shape) {
+        if constexpr (std::is_same_v<T, Disc>) {
+          return std::numbers::pi * shape.radius * shape.radius;
+        } else {
+          return shape.width * shape.depth;
+        }
+      },
+      emitter.shape);
+  return area / spacing / spacing;
 }
 
 }  // namespace sessile

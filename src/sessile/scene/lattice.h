@@ -28,7 +28,7 @@ inline std::string called(std::string_view what, const std::string& label, std::
 
 /// Throws SceneError when there are more points than can be numbered.
 inline void check_count(double count, const std::string& who) {
-  if (count > most_points) throw SceneError(who + ": needs more than 2147483647 points at this spacing");
+  if (!(count <= most_points)) throw SceneError(who + ": needs more than 2147483647 points at this spacing");
 }
 
 }  // namespace sessile

@@ -1,5 +1,7 @@
 #include "sessile/scene/mesh_sampling.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +15,8 @@ namespace sessile {
 namespace {
 
 constexpr double least_distance = 0.86;  // over the spacing; packs about one sample per spacing^2
+constexpr double widest = 1e15;          // over the spacing; cells are numbered by int64
+constexpr double long_side = 100;        // over the spacing: up to here the area of a triangle tells enough
 constexpr double raster = 0.25;          // over the spacing
 
 /// Samples found so far, in cells, so that none is taken too near another.
@@ -91,8 +95,22 @@ void for_each_raster_point(const Vec3d& p, const Vec3d& q, const Vec3d& r, doubl
 
 }  // namespace
 
+double estimate_mesh(const TriangleMesh& mesh, double spacing) {
+  double needles = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const double edge = std::sqrt(std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)}));
+    needles += std::max(0.0, edge / spacing - long_side);
+  }
+  return mesh.area() / spacing / spacing + needles;
+}
+
 std::vector<Vec3d> sample_mesh(const TriangleMesh& mesh, double spacing, int layers, const std::string& who) {
-  check_count(mesh.area() / spacing / spacing * layers, who);
+  check_count(estimate_mesh(mesh, spacing) * layers, who);
+  const Vec3d size = mesh.upper() - mesh.lower();
+  if (!(std::max({size.x, size.y, size.z}) / spacing < widest)) {
+    throw SceneError(fmt::format("{}: is more than {} sample distances wide", who, widest));
+  }
   SampleSet samples(mesh.lower(), least_distance * spacing);
   for (const auto& vertex : mesh.vertices) samples.add_if_free(vertex);
   const auto corner = [&](const auto& t, std::size_t k) { return mesh.vertices[t[k]]; };

@@ -16,6 +16,7 @@ namespace sessile {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double long_side = 100;  // over the spacing: up to here the area tells enough
 constexpr double thinnest = 0.25;  // over the spacing: a further layer of less radius or height would fall together
 
 /// What every sampler is told.
@@ -35,8 +36,10 @@ std::vector<Vec3d> box_shells(const Vec3d& size, const Request& request, int gro
   const Vec3d step{size.x / fits[0], size.y / fits[1], size.z / fits[2]};
   std::array<double, 3> points{};
   for (std::size_t k = 0; k < 3; ++k) points[k] = fits[k] + 1 + 2.0 * grown;
-  const auto inner = [&](std::size_t k) { return std::max(0.0, points[k] - 2.0 * request.layers); };
-  check_count(points[0] * points[1] * points[2] - inner(0) * inner(1) * inner(2), request.who);
+  // No difference of two products: where these are huge nothing would be left of it.
+  const double whole = points[0] * points[1] * points[2];
+  const double shells = 2.0 * request.layers * (points[0] * points[1] + points[1] * points[2] + points[2] * points[0]);
+  check_count(std::min(whole, shells), request.who);
 
   const std::array<std::int64_t, 3> n{static_cast<std::int64_t>(points[0]), static_cast<std::int64_t>(points[1]),
                                       static_cast<std::int64_t>(points[2])};
@@ -113,7 +116,8 @@ std::vector<Vec3d> sample_shape(const Cylinder& cylinder, const Request& request
     if (k > 0 && std::min(radius, height) < thinnest * request.spacing) break;
     const double levels = edge_steps(height, request.spacing), circles = edge_steps(radius, request.spacing);
     const double around = 2 * pi * radius / request.spacing;
-    check_count((around * (levels + 1) + around * circles) * request.layers, request.who);
+    // A ring has a sample at least, however thin the cylinder is.
+    check_count((around + 1) * (levels + 1 + 2 * circles) * request.layers, request.who);
     for (std::int64_t i = 0; i <= static_cast<std::int64_t>(levels); ++i) {
       const double z = centred_place(i, static_cast<std::int64_t>(levels) + 1, height / levels);
       add_ring(samples, radius, z, request.spacing, i % 2 == 1);
@@ -130,6 +134,25 @@ std::vector<Vec3d> sample_shape(const Mesh& mesh, const Request& request) {
   return sample_mesh(load_mesh(mesh), request.spacing, request.layers, request.who);
 }
 
+/// Samples along what is longer than `long_side` spacings, each: what the area leaves out of needles.
+double along(double length, double spacing) { return std::max(0.0, length / spacing - long_side); }
+
+double needles(const SolidShape& solid_shape, double spacing) {
+  return std::visit(
+      [&]<Named T>(const T& shape) {
+        if constexpr (std::is_same_v<T, Box> || std::is_same_v<T, Container>) {
+          return along(std::max({shape.size.x, shape.size.y, shape.size.z}), spacing);
+        } else if constexpr (std::is_same_v<T, Plate>) {
+          return along(std::max(shape.width, shape.depth), spacing);
+        } else if constexpr (std::is_same_v<T, Cylinder>) {
+          return along(std::max(shape.radius, shape.height), spacing);
+        } else {
+          return 0.0;  // a mesh adds its own
+        }
+      },
+      solid_shape);
+}
+
 double area(const SolidShape& solid_shape) {
   return std::visit(
       []<Named T>(const T& shape) {
@@ -142,7 +165,7 @@ double area(const SolidShape& solid_shape) {
         } else if constexpr (std::is_same_v<T, Cylinder>) {
           return 2 * pi * shape.radius * (shape.radius + shape.height);
         } else {
-          return load_mesh(shape).area();
+          return 0.0;  // a mesh is counted by estimate_mesh()
         }
       },
       solid_shape);
@@ -161,7 +184,9 @@ std::vector<Vec3d> sample_surface(const Solid& solid, double spacing) {
 
 double estimate_surface(const Solid& solid, double spacing) {
   const double distance = solid.spacing.value_or(spacing);
-  return solid.layers * (area(solid.shape) / distance / distance);
+  if (const auto* mesh = std::get_if<Mesh>(&solid.shape))
+    return solid.layers * estimate_mesh(load_mesh(*mesh), distance);
+  return solid.layers * (area(solid.shape) / distance / distance + needles(solid.shape, distance));
 }
 
 }  // namespace sessile
