@@ -7,6 +7,7 @@
 #include <functional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "mesh/surface_folder.h"
 #include "sessile/core/error.h"
@@ -71,16 +72,21 @@ bool Checkpoints::due(const Simulation& simulation) const {
 }
 
 void Checkpoints::write(const Simulation& simulation, const std::string& session) {
+  write(simulation.scene(), simulation.state(), session);
+}
+
+void Checkpoints::write(const Scene& scene, SimulationState state, const std::string& session) {
   std::error_code error;
   fs::create_directory(folder_, error);  // not the folder above: that one is only missing when somebody took it away
   sync_folder(folder_.parent_path());  // a checkpoint must not outlast, in a power cut, the files that it goes on with
   const fs::path surfaces = folder_.parent_path() / surface_folder_name;
   if (fs::is_directory(surfaces)) sync_folder(surfaces);
   const BuildInfo build = build_info();
-  write_checkpoint(folder_ / fmt::format("{}{:09}{}", prefix, simulation.totals().steps, suffix),
-                   {build.version, build.isa, to_json(simulation.scene()), session, simulation.state()});
+  const double time = state.time;
+  write_checkpoint(folder_ / fmt::format("{}{:09}{}", prefix, state.totals.steps, suffix),
+                   {build.version, build.isa, to_json(scene), session, std::move(state)});
   last_ = Clock::now();
-  if (schedule_) schedule_->done(simulation.time());
+  if (schedule_) schedule_->done(time);
   const std::vector<Kept> all = list(folder_);
   for (std::size_t k = keep_; k < all.size(); ++k) remove_file(all[k].file);
 }

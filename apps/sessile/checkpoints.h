@@ -27,6 +27,7 @@ class Checkpoints {
 
   /// Writes one, and takes out those that are no longer kept. Throws FileError.
   void write(const Simulation& simulation, const std::string& session);
+  void write(const Scene& scene, SimulationState state, const std::string& session);
 
   bool wanted() const { return keep_ > 0; }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "checkpoints.h"
+#include "fault_dump.h"
 #include "mesh/surface_folder.h"
 #include "sessile/core/error.h"
 #include "sessile/output/file.h"
@@ -72,12 +73,14 @@ const fs::path& fresh_folder(const fs::path& folder) {
   create_output_folder(folder);
   remove_surfaces(folder / surface_folder_name);
   remove_checkpoints(folder);
+  remove_fault_dump(folder / fault_folder_name);
   remove_files(folder, is_result);
   return folder;
 }
 
 const fs::path& rewound_folder(const fs::path& folder, const SessionState& state) {
   create_output_folder(folder);
+  remove_fault_dump(folder / fault_folder_name);
   const auto frames = static_cast<std::int64_t>(state.frame_times.size());
   remove_files(folder, [&](const Name& file) {
     if (file.name == "summary.json" || (file.half && is_result(file))) return true;

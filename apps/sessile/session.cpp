@@ -12,8 +12,10 @@
 #include "mesh/surface_folder.h"
 #include "prepare.h"
 #include "recorder.h"
+#include "sessile/core/error.h"
 #include "sessile/scene/describe.h"
 #include "sessile/version.h"
+#include "stability.h"
 
 namespace sessile::app {
 namespace {
@@ -68,14 +70,24 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
   const auto wall = [&] { return earlier + since(start); };
   SessionResult result;
   refuse_if_in_use(options.folder / surface_folder_name);  // by `sessile mesh`: a run takes those surfaces out
-  Recorder recorder(options.folder, simulation, before);
+  std::optional<Recorder> recorder(std::in_place, options.folder, simulation, before);
+  Stability stability(simulation.scene(), options.checkpoints, before);
   Checkpoints checkpoints(options.folder, checkpoints_of(simulation.scene(), options),
                           before ? std::optional(simulation.time()) : std::nullopt);
-  const auto keep_state = [&] {
-    SessionState state = recorder.settle();
+  const auto records = [&] {
+    SessionState state = recorder->settle();
     state.wall_time = wall();
-    checkpoints.write(simulation, session_json(state));
+    state.stability = stability.state();
+    return state;
   };
+  const auto keep_state = [&] {
+    if (stability.goes_back()) {
+      const Stability::Kept& good = stability.good();
+      return checkpoints.write(stability.scene(), good.state, session_json(good.records));
+    }
+    checkpoints.write(stability.scene(), simulation.state(), session_json(records()));
+  };
+  const auto keep_good_state = [&] { stability.keep(simulation, stability.goes_back() ? records() : SessionState{}); };
   Progress progress(options.progress, options.name, simulation);
   if (!lock.warning().empty()) progress.warn(lock.warning());
   Warnings warnings;
@@ -83,12 +95,18 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
   facts.version = version();
   facts.scene_json = to_json(simulation.scene());
   try {
+    if (options.checkpoints) keep_good_state();
     while (!simulation.finished() && !stop_asked() && result.message.empty()) {
       const auto began = Clock::now();
-      simulation.step();
+      const bool well = stability.step(simulation, progress);
       result.stepping += since(began);
       lock.check();
-      recorder.record(simulation);
+      if (!well) {
+        recorder.emplace(options.folder, simulation, stability.good().records);
+        continue;
+      }
+      recorder->record(simulation);
+      if (stability.due(simulation)) keep_good_state();
       if (checkpoints.due(simulation)) keep_state();
       warnings.look(simulation, progress);
       progress.update(simulation);
@@ -105,8 +123,9 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
     facts.status = result.status = RunStatus::failed;
     facts.message = result.message;
     facts.wall_time = wall();
+    facts.stability = stability.facts();
     try {
-      if (lock.in_place()) recorder.finish(simulation, facts);
+      if (recorder && lock.in_place()) recorder->finish(simulation, facts);
     } catch (const std::exception&) {
       // The first error is the one to report.
     }
@@ -117,11 +136,15 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
     facts.message = result.message;
     progress.finish(simulation);
     facts.wall_time = wall();
-    recorder.finish(simulation, facts);
+    facts.stability = stability.facts();
+    recorder->finish(simulation, facts);
   }
   result.wall = wall();
-  result.frames = recorder.frames();
+  result.frames = recorder ? recorder->frames() : 0;
   result.facts = simulation_facts(simulation);
+  if (const std::string kept = stability.dump(options.folder, simulation); !kept.empty()) {
+    result.error = std::make_exception_ptr(RunError(result.message + ".\n" + kept));
+  }
   return result;
 }
 

@@ -21,6 +21,18 @@ void each_number(State& state, F&& f) {
   f("output_time", state.output_time);
   f("measures_time", state.measures_time);
   f("writer_time", state.writer_time);
+  f("compressed_first", state.stability.health.first_half);
+  f("compressed_second", state.stability.health.second_half);
+  f("dt_limit", state.stability.dt_limit);
+  f("dt_limit_until", state.stability.until);
+}
+
+template <class State, class F>
+void each_count(State& state, F&& f) {
+  f("compressed_steps", state.stability.health.compressed_steps);
+  f("retries", state.stability.retries);
+  f("went_back", state.stability.went_back);
+  f("undone_steps", state.stability.undone_steps);
 }
 
 template <class State, class F>
@@ -41,6 +53,8 @@ std::string session_json(const SessionState& state) {
   JsonObject object(0);
   object.add("stats_bytes", static_cast<std::size_t>(state.stats_bytes));
   each_number(state, [&](std::string_view key, double value) { object.add(key, value); });
+  each_count(state, [&](std::string_view key, std::int64_t value) { object.add(key, value); });
+  object.add("last_fault", state.stability.last_fault);
   each_list(state, [&](std::string_view key, const auto& values) { object.raw(key, list_of(values)); });
   each_option(state, [&](std::string_view key, const auto& value) {
     if (value) object.add(key, *value);
@@ -58,6 +72,8 @@ SessionState session_of(const std::string& json) {
   try {
     state.stats_bytes = root["stats_bytes"].asUInt64();
     each_number(state, [&](const char* key, double& value) { value = root[key].asDouble(); });
+    each_count(state, [&](const char* key, std::int64_t& value) { value = root[key].asInt64(); });
+    state.stability.last_fault = root["last_fault"].asString();
     each_list(state, [&](const char* key, std::vector<double>& values) {
       for (const Json::Value& each : root[key]) values.push_back(each.asDouble());
     });

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "stability_state.h"
+
 namespace sessile::app {
 
 /// What a run has written so far, and how long it took: the part of a checkpoint that is the program's own. Files grow
@@ -19,6 +21,7 @@ struct SessionState {
   double output_time = 0;             ///< of that, waiting for output [s]
   double measures_time = 0;           ///< of that, measuring [s]
   double writer_time = 0;             ///< of the writer's own thread [s]
+  StabilityState stability{};
 };
 
 /// As JSON, numbers exact.

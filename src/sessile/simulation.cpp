@@ -156,9 +156,7 @@ void Simulation::free_velocities_of_divergence(double dt) {
   totals_.divergence_iterations += result.iterations;
   totals_.unconverged_solves += !result.converged;
   totals_.solves += 1;
-  if (!std::isfinite(last_step_.kinetic_energy)) {
-    throw RunError(fmt::format("velocities are no longer finite after the divergence solve at {:g} s", time_));
-  }
+  if (!std::isfinite(last_step_.kinetic_energy)) refuse_velocities();
 }
 
 void Simulation::let_in_new_layers() {

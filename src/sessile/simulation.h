@@ -93,7 +93,8 @@ class Simulation {
   void predict_velocities(double dt);
   void solve_pressure(double dt);
   void move(double dt);
-  std::string not_finite_text(double dt) const;
+  [[noreturn]] void refuse_places(double dt) const;
+  void refuse_velocities();
   void take_out_what_left();
   void let_in_new_layers();
   void count() const;

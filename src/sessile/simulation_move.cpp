@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "sessile/core/error.h"
 #include "sessile/core/parallel.h"
@@ -22,25 +23,24 @@ struct Moves {
   double forces = 0, pressure = 0, kinetic = 0;  // work, and energy after the step [m^2/s^2]
 };
 
-Moves join(const Moves& a, const Moves& b) {
-  Moves both = a;
+/// Adds the moves of the particles behind those of `sum`.
+void add(Moves& sum, const Moves& next) {
   const auto first = [](int& mine, int other) { mine = mine < 0 ? other : mine; };
-  both.passed = a.first_passage < 0 ? b.passed : a.passed;
-  both.escaped = a.first_escape < 0 ? b.escaped : a.escaped;
-  first(both.first_not_finite, b.first_not_finite);
-  first(both.first_passage, b.first_passage);
-  first(both.first_escape, b.first_escape);
-  both.not_finite += b.not_finite;
-  both.passages += b.passages;
-  both.escapes += b.escapes;
-  if (b.throw2 > a.throw2) {
-    both.throw2 = b.throw2;
-    both.thrown = b.thrown;
+  if (sum.first_passage < 0) sum.passed = next.passed;
+  if (sum.first_escape < 0) sum.escaped = next.escaped;
+  first(sum.first_not_finite, next.first_not_finite);
+  first(sum.first_passage, next.first_passage);
+  first(sum.first_escape, next.first_escape);
+  sum.not_finite += next.not_finite;
+  sum.passages += next.passages;
+  sum.escapes += next.escapes;
+  if (next.throw2 > sum.throw2) {
+    sum.throw2 = next.throw2;
+    sum.thrown = next.thrown;
   }
-  both.forces += b.forces;
-  both.pressure += b.pressure;
-  both.kinetic += b.kinetic;
-  return both;
+  sum.forces += next.forces;
+  sum.pressure += next.pressure;
+  sum.kinetic += next.kinetic;
 }
 
 ParticleEvent event(const Particles& particles, std::int64_t count, int place) {
@@ -62,35 +62,34 @@ void Simulation::move(double dt) {
   // A particle without a wall sample in reach, and not faster than dx a step, cannot have met a solid whose samples lie
   // at most dx apart.
   const double far = units_.spacing * units_.spacing;
-  const auto look_for_passages = [&](int i, const Vec3d& from, const Vec3d& to, Moves& moves) {
+  const auto look_for_passages = [&](int i, const Vec3d& from, const Vec3d& to, Moves& all) {
     if (wall_neighbors_.count(static_cast<std::size_t>(i)) == 0 && squared_length(to - from) < far && !coarse_walls_) {
       return;
     }
+    Moves own;
     for (std::size_t s = 0; s < solids_.size(); ++s) {
       if (!solids_[s].crossed(from, to)) continue;
       if (holds_liquid_[s]) {  // which says more than another solid on the way
-        moves.passages = 0;
-        moves.first_passage = -1;
-        moves.escapes = 1;
-        moves.first_escape = i;
-        moves.escaped = static_cast<int>(s);
-        return;
+        own = {};
+        own.escapes = 1;
+        own.first_escape = i;
+        own.escaped = static_cast<int>(s);
+        break;
       }
-      moves.passages = 1;
-      moves.first_passage = i;
-      moves.passed = static_cast<int>(s);
+      own.passages = 1;
+      own.first_passage = i;
+      own.passed = static_cast<int>(s);
     }
+    if (own.passages + own.escapes > 0) add(all, own);
   };
-  const auto move_one = [&](int i) {
-    Moves moves;
+  const auto move_one = [&](int i, Moves& all) {
     const auto k = static_cast<std::size_t>(i);
     const Vec3r predicted = particles_.velocity[k];
     const Vec3r v = predicted + step * pressure_.acceleration[k];
     const Vec3r from = particles_.position[k], to = from + step * v;
     if (!finite(to) || !std::isfinite(particles_.pressure[k])) {  // it stays where it can be seen
-      moves.not_finite = 1;
-      moves.first_not_finite = i;
-      return moves;
+      if (all.not_finite++ == 0) all.first_not_finite = i;
+      return;
     }
     particles_.velocity.set(k, v);
     particles_.position.set(k, to);
@@ -98,19 +97,29 @@ void Simulation::move(double dt) {
     const Vec3d by_pressure = vec_cast<double>(v) - vec_cast<double>(predicted);
     const Vec3d mean = vec_cast<double>(v) - 0.5 * (by_forces + by_pressure);  // of the velocities around the step
     const auto m = static_cast<double>(particles_.mass[k]);
-    look_for_passages(i, vec_cast<double>(from), vec_cast<double>(to), moves);
-    moves.thrown = i;
-    moves.throw2 = squared_length(by_forces + by_pressure);
-    moves.forces = m * dot(by_forces, mean);
-    moves.pressure = m * dot(by_pressure, mean);
-    moves.kinetic = kinetic(particles_, k);
-    return moves;
+    look_for_passages(i, vec_cast<double>(from), vec_cast<double>(to), all);
+    if (const double throw2 = squared_length(by_forces + by_pressure); throw2 > all.throw2) {
+      all.throw2 = throw2;
+      all.thrown = i;
+    }
+    all.forces += m * dot(by_forces, mean);
+    all.pressure += m * dot(by_pressure, mean);
+    all.kinetic += kinetic(particles_, k);
   };
-  const Moves all = reduce(particles_.size(), Moves{}, move_one, join);
+  std::vector<Moves> parts(static_cast<std::size_t>(block_count(particles_.size())));
+  for_each_block(particles_.size(), [&](std::ptrdiff_t block, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    Moves part;
+    for (auto i = begin; i < end; ++i) move_one(static_cast<int>(i), part);
+    parts[static_cast<std::size_t>(block)] = part;
+  });
+  Moves all;
+  for (const Moves& part : parts) add(all, part);
   totals_.lost += all.passages + all.escapes + all.not_finite;
   totals_.energy.forces += units_.particle_mass() * all.forces;
   totals_.energy.pressure += units_.particle_mass() * all.pressure;
   last_step_.kinetic_energy = units_.particle_mass() * all.kinetic;
+  health_.step = totals_.steps + 1;
+  health_.time = time_ + dt;
   health_.not_finite = event(particles_, all.not_finite, all.first_not_finite);
   health_.passage = event(particles_, all.passages, all.first_passage);
   health_.escape = event(particles_, all.escapes, all.first_escape);
@@ -118,15 +127,31 @@ void Simulation::move(double dt) {
   health_.escaped = all.escaped;
   health_.thrown = event(particles_, 1, all.thrown);
   health_.throw_length = std::sqrt(all.throw2) * dt;
-  if (all.not_finite > 0) throw RunError(not_finite_text(dt));
+  if (all.not_finite > 0) refuse_places(dt);
 }
 
-std::string Simulation::not_finite_text(double dt) const {
+void Simulation::refuse_places(double dt) const {
   const ParticleEvent& first = health_.not_finite;
-  return fmt::format(
-      "{} of {} particles have no finite position after the step of {:g} s at {:g} s: the step is too long for these "
-      "forces. The first of them, particle {}, stood at ({:g}, {:g}, {:g}) m",
-      first.count, particles_.size(), dt, time_, first.id, first.position.x, first.position.y, first.position.z);
+  throw RunError(fmt::format(
+      "{} of {} particles have no finite position or pressure after the step of {:g} s at {:g} s: the step is too long "
+      "for these forces. The first of them, particle {}, stood at ({:g}, {:g}, {:g}) m",
+      first.count, particles_.size(), dt, time_, first.id, first.position.x, first.position.y, first.position.z));
+}
+
+void Simulation::refuse_velocities() {
+  int first = -1;
+  std::int64_t count = 0;
+  for (std::size_t k = particles_.size(); k-- > 0;) {
+    if (finite(particles_.velocity[k])) continue;
+    first = static_cast<int>(k);
+    ++count;
+  }
+  if (first < 0) return;  // a sum of great numbers; the next step will tell
+  health_.not_finite = event(particles_, count, first);
+  throw RunError(
+      fmt::format("{} of {} particles have no finite velocity after the divergence solve at {:g} s, first of "
+                  "them particle {}",
+                  count, particles_.size(), time_, particles_.id[static_cast<std::size_t>(first)]));
 }
 
 void Simulation::take_out_what_left() {

@@ -16,6 +16,8 @@ struct ParticleEvent {
 
 /// What can show that the last step went wrong, found in the pass that moves the particles.
 struct StepHealth {
+  std::int64_t step = 0;     ///< its number, from 1
+  double time = 0;           ///< after it [s]
   ParticleEvent not_finite;  ///< position, velocity or pressure
   ParticleEvent escape;   ///< the way crosses a container or a closed face of the domain: out of what holds the liquid
   ParticleEvent passage;  ///< the way crosses another solid's surface into or through it

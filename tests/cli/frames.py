@@ -11,8 +11,10 @@ def read_pvd(path):
     return [(float(entry.get("timestep")), entry.get("file")) for entry in root.iter("DataSet")]
 
 
-def read_vtp(path):
-    """(number of points, names of the point arrays, time). Every array must unpack to the length it should have."""
+def read_vtp(path, values=None):
+    """(number of points, names of the point arrays, time). Every array must unpack to the length it should have.
+    `values`: a dictionary that gets a list for each name, of tuples where there are several numbers a point; "" has
+    the places."""
     root = xml.etree.ElementTree.parse(path).getroot()
     width = {"UInt32": 4, "UInt64": 8}[root.get("header_type")]
     sizes = {"Float32": 4, "Float64": 8, "Int32": 4, "Int64": 8, "UInt8": 1, "UInt32": 4}
@@ -35,6 +37,14 @@ def read_vtp(path):
             start += length
         return data
 
+    def keep(name, array, data):
+        if values is None:
+            return
+        kind = {"Float32": "f", "Float64": "d", "Int32": "i", "Int64": "q", "UInt8": "B", "UInt32": "I"}[array.get("type")]
+        numbers = [n[0] for n in struct.iter_unpack("<" + kind, data)]
+        each = int(array.get("NumberOfComponents", 1))
+        values[name] = numbers if each == 1 else [tuple(numbers[k:k + each]) for k in range(0, len(numbers), each)]
+
     piece = root.find("PolyData/Piece")
     points = int(piece.get("NumberOfPoints"))
     names = []
@@ -43,7 +53,9 @@ def read_vtp(path):
         data = unpack(array)
         wanted = points * int(array.get("NumberOfComponents", 1)) * sizes[array.get("type")]
         assert len(data) == wanted, f"{path}: {names[-1]} has {len(data)} bytes instead of {wanted}"
+        keep(names[-1], array, data)
     place = piece.find("Points/DataArray")
+    keep("", place, unpack(place))
     assert len(unpack(place)) == points * 3 * sizes[place.get("type")]
     time = [a for a in root.iter("DataArray") if a.get("Name") == "TimeValue"][0]
     return points, names, float(time.text)

@@ -122,27 +122,31 @@ TEST(Health, TellsAnEscapeFromAPassage) {
   EXPECT_NE(found[0].message.find("\"domain_z_min\""), std::string::npos) << found[0].message;
 }
 
-TEST(Health, FindsALiquidThatStaysCompressed) {
-  // Twice too much liquid in a closed box: no pressure can part it.
-  Scene scene = test::block(6, 1e-3);
-  scene.bodies[0].mass_factor = 1.5;
-  scene.domain = Domain{{-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, Edge::closed, Edge::closed, Edge::closed};
+/// A periodic block whose masses are 5 % too great: there is nowhere to go, no pressure helps.
+Scene stuffed() {
+  Scene scene = test::block(8, 1e-3);
+  scene.bodies[0].mass_factor = 1.05;
+  scene.domain = Domain{{-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}, Edge::periodic, Edge::periodic, Edge::periodic};
   Iisph solver;
   solver.max_iterations = 5;
+  solver.iteration = Iteration::jacobi;  // conjugate directions answer an unsolvable system with numbers beyond sense
   scene.pressure = solver;
+  return scene;
+}
+
+TEST(Health, FindsALiquidThatStaysCompressed) {
   StabilitySettings settings;
-  settings.speed = false;
   settings.density_steps = 40;
-  Simulation simulation(scene);
+  Simulation simulation(stuffed());
   Health health(settings);
   std::vector<RunFault> found;
-  for (int k = 0; k < 400 && found.empty(); ++k) {
+  for (int k = 0; k < 40; ++k) {
+    ASSERT_TRUE(found.empty()) << "after " << k << " steps";
     simulation.step();
-    for (const RunFault& f : health.look(simulation)) {
-      if (f.kind == RunFaultKind::density) found.push_back(f);
-    }
+    found = health.look(simulation);
   }
   ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, RunFaultKind::density);
   EXPECT_NE(found[0].message.find("40 pressure solves in a row"), std::string::npos) << found[0].message;
   EXPECT_FALSE(health.doubtful()) << "a new stretch begins";
 }
@@ -164,15 +168,9 @@ TEST(Health, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Health, StateGoesOnWhereItStood) {
-  Scene scene = test::block(6, 1e-3);
-  scene.bodies[0].mass_factor = 1.5;
-  scene.domain = Domain{{-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, Edge::closed, Edge::closed, Edge::closed};
-  Iisph solver;
-  solver.max_iterations = 5;
-  scene.pressure = solver;
   StabilitySettings settings;
   settings.density_steps = 30;
-  Simulation simulation(scene);
+  Simulation simulation(stuffed());
   Health whole(settings), first(settings);
   for (int k = 0; k < 60; ++k) {
     simulation.step();

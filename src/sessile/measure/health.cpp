@@ -32,8 +32,8 @@ RunFault begun(const Simulation& simulation, RunFaultKind kind, const ParticleEv
   const StepReport& last = simulation.last_step();
   RunFault f;
   f.kind = kind;
-  f.time = simulation.time();
-  f.step = simulation.totals().steps;
+  f.time = simulation.health().time;
+  f.step = simulation.health().step;
   f.dt = last.dt;
   f.bound = last.bound;
   f.overruled = last.overruled;
@@ -46,10 +46,8 @@ RunFault begun(const Simulation& simulation, RunFaultKind kind, const ParticleEv
 
 RunFault not_finite(const Simulation& simulation) {
   RunFault f = begun(simulation, RunFaultKind::not_finite, simulation.health().not_finite);
-  ++f.step;  // which did not come to its end
-  f.time += f.dt;
   f.message = fmt::format(
-                  "{} of {} particles have no finite position or pressure after {}; the first, particle {}, "
+                  "{} of {} particles have no finite position, velocity or pressure after {}; the first, particle {}, "
                   "stood at {}",
                   f.count, simulation.particles().size(), step_text(f), f.particle, place(f.position)) +
               " m";

@@ -1,9 +1,12 @@
 #include "sessile/output/summary.h"
 
+#include <fmt/format.h>
 #include <json/json.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "sessile/output/durable.h"
 #include "sessile/output/json_object.h"
@@ -19,7 +22,41 @@ bool is_json(const std::string& text) {
   return reader->parse(text.data(), text.data() + text.size(), &ignored, nullptr);
 }
 
+std::string list_of(const Vec3d& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+JsonObject fault_object(const RunFault& fault, std::size_t depth) {
+  JsonObject object(depth);
+  object.add("kind", std::string(word(fault.kind)))
+      .add("message", fault.message)
+      .add("time_s", fault.time)
+      .add("step", fault.step)
+      .add("dt_s", fault.dt)
+      .add("bound", std::string(fault.bound))
+      .add("overruled", std::string(fault.overruled))
+      .add("particles", fault.count)
+      .add("particle", fault.particle);
+  const auto finite = [](const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+  if (finite(fault.position)) object.raw("position_m", list_of(fault.position));
+  if (finite(fault.velocity)) object.raw("velocity_m_s", list_of(fault.velocity));
+  return object;
+}
+
+std::string stability_json(const StabilityFacts& facts) {
+  JsonObject object(1);
+  object.add("went_back", facts.went_back).add("undone_steps", facts.undone_steps).add("last_fault", facts.last_fault);
+  if (facts.fault) {
+    object.raw("fault", fault_object(*facts.fault, 2).text());
+  } else {
+    object.raw("fault", "null");
+  }
+  return object.text();
+}
+
 }  // namespace
+
+std::string fault_json(const RunFault& fault, const std::string& advice) {
+  return fault_object(fault, 0).add("advice", advice).text();
+}
 
 std::string_view word(RunStatus status) {
   switch (status) {
@@ -87,6 +124,7 @@ std::string summary_json(const RunFacts& run, const SimulationFacts& simulation)
       .add("waits", totals.waits)
       .add("out", totals.out)
       .add("lost", totals.lost)
+      .raw("stability", stability_json(run.stability))
       .raw("energy_J", energy.text())
       .raw("wall_time_s", wall_time.text())
       .raw("memory_bytes", memory.text());

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "sessile/measure/health.h"
 #include "sessile/simulation.h"
 
 namespace sessile {
@@ -14,6 +16,17 @@ enum class RunStatus { done, interrupted, failed, stopped };
 
 /// "done", "interrupted", "failed", "stopped".
 std::string_view word(RunStatus status);
+
+/// How often a run went unstable.
+struct StabilityFacts {
+  std::int64_t went_back = 0;     ///< to an earlier state
+  std::int64_t undone_steps = 0;  ///< that this took back
+  std::string last_fault;         ///< why it last did, as a sentence
+  std::optional<RunFault> fault;  ///< that ended the run
+};
+
+/// A fault as a JSON object, with what can be done about it.
+std::string fault_json(const RunFault& fault, const std::string& advice);
 
 /// What only the program that runs a simulation knows.
 struct RunFacts {
@@ -26,6 +39,7 @@ struct RunFacts {
   double measures_time = 0;  ///< spent in measure() [s]
   double writer_time = 0;    ///< that the writer's own thread worked meanwhile [s]
   std::int64_t frames = 0;   ///< written whole
+  StabilityFacts stability{};
 };
 
 /// What the simulation knows at the end of a run.

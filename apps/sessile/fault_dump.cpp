@@ -1,0 +1,96 @@
+#include "fault_dump.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <system_error>
+#include <variant>
+#include <vector>
+
+#include "checkpoints.h"
+#include "result_folder.h"
+#include "sessile/core/error.h"
+#include "sessile/measure/diagnostics.h"
+#include "sessile/output/file.h"
+#include "sessile/output/json_object.h"
+#include "sessile/output/stats.h"
+#include "sessile/output/summary.h"
+#include "sessile/output/writer.h"
+#include "sessile/scene/describe.h"
+#include "session_state.h"
+
+namespace sessile::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string>& columns() {
+  static const std::vector<std::string> names{"id", "velocity", "density", "pressure"};
+  return names;
+}
+
+/// The scene, so that a run that goes on in the folder of the dump writes what is there already.
+Scene scene_of_dump(Scene scene) {
+  scene.output.formats = {"vtp"};
+  scene.output.columns = columns();
+  scene.output.surface.reset();
+  return scene;
+}
+
+void make_finite(std::vector<float>& values) {
+  for (float& value : values) {
+    if (!std::isfinite(value)) value = 0;
+  }
+}
+
+}  // namespace
+
+Snapshot faulty_frame(const Simulation& simulation, const RunFault& fault) {
+  Snapshot frame = take_snapshot(simulation, columns());
+  frame.time = fault.time;
+  frame.step = fault.step;
+  make_finite(frame.points);
+  for (Column& column : frame.columns) {
+    if (auto* values = std::get_if<std::vector<float>>(&column.values)) make_finite(*values);
+  }
+  return frame;
+}
+
+void write_fault_dump(const fs::path& folder, const Simulation& good, const Snapshot& faulty, const RunFault& fault,
+                      const std::string& advice) {
+  remove_fault_dump(folder);
+  create_output_folder(folder);
+  const Scene scene = scene_of_dump(good.scene());
+  write_whole(folder / "scene.json", to_json(scene));
+  write_whole(folder / "fault.json", fault_json(fault, advice) + "\n");
+  FrameWriter frames(folder, scene.output.formats);
+  frames.write_solids(take_solids(good.walls()));
+  frames.push(take_snapshot(good, columns()));
+  SessionState session;
+  session.frame_times = frames.settle();
+  session.frame_due = good.time();
+  frames.push(faulty);
+  frames.close();
+  StatsWriter stats(folder / "stats.csv", good.walls().labels);
+  stats.write(good, measure(good));
+  session.stats_bytes = stats.settle();
+  session.stats_time = good.time();
+  CheckpointOutput one;
+  one.keep = 1;
+  Checkpoints(folder, one, {}).write(scene, good.state(), session_json(session));
+}
+
+void remove_fault_dump(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return;  // a link is not ours to follow
+  fresh_folder(folder);
+  for (const char* name : {"stats.csv", "fault.json"}) {
+    if (!fs::remove(folder / name, error) && error) {
+      throw FileError(fmt::format("{}: cannot remove this result of an earlier run: {}", (folder / name).string(),
+                                  error.message()));
+    }
+  }
+  if (fs::is_empty(folder, error)) fs::remove(folder, error);
+}
+
+}  // namespace sessile::app
