@@ -42,7 +42,7 @@ int say_end(const SessionResult& result, const RunOptions& options) {
 
 int run(RunOptions options) {
   apply_run_options(options, "");
-  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
+  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides, options.places);
   const SessionResult result =
       run_session(resolved, {options.scene, options.folder, progress_style(options.progress), ""});
   return say_end(result, options);
