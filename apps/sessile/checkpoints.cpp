@@ -8,7 +8,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "mesh/surface_folder.h"
 #include "sessile/core/error.h"
+#include "sessile/output/durable.h"
 #include "sessile/output/file.h"
 #include "sessile/scene/describe.h"
 #include "sessile/version.h"
@@ -70,6 +72,9 @@ bool Checkpoints::due(const Simulation& simulation) const {
 
 void Checkpoints::write(const Simulation& simulation, const std::string& session) {
   create_output_folder(folder_);
+  sync_folder(folder_.parent_path());  // a checkpoint must not outlast, in a power cut, the files that it goes on with
+  const fs::path surfaces = folder_.parent_path() / surface_folder_name;
+  if (fs::is_directory(surfaces)) sync_folder(surfaces);
   const BuildInfo build = build_info();
   write_checkpoint(folder_ / fmt::format("{}{:09}{}", prefix, simulation.totals().steps, suffix),
                    {build.version, build.isa, to_json(simulation.scene()), session, simulation.state()});
@@ -100,6 +105,8 @@ FoundCheckpoint find_checkpoint(const fs::path& results, std::optional<double> a
   for (const std::string& each : found.passed_over) what += "\n" + each;
   throw FileError(what);
 }
+
+bool has_checkpoints(const fs::path& results) { return !list(results / checkpoint_folder_name).empty(); }
 
 void remove_checkpoints(const fs::path& results, std::optional<std::int64_t> after_step) {
   const fs::path folder = results / checkpoint_folder_name;

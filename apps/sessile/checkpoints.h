@@ -51,6 +51,9 @@ struct FoundCheckpoint {
 /// Throws FileError when there is none.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& results, std::optional<double> at);
 
+/// Whether a run has left any in its folder of results.
+bool has_checkpoints(const std::filesystem::path& results);
+
 /// Removes the checkpoints of a run that were taken after a step, all of them without one, and what a killed run left
 /// half written. Throws FileError.
 void remove_checkpoints(const std::filesystem::path& results, std::optional<std::int64_t> after_step = {});

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "advice.h"
 #include "commands.h"
+#include "folder_lock.h"
 #include "say.h"
 #include "sessile/core/error.h"
 #include "sessile/scene/spelling.h"
 #include "sessile/version.h"
+#include "signals.h"
 #include "start.h"
 
 namespace {
@@ -32,13 +34,14 @@ std::string unknown_command(const CLI::App& program, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace sessile;
+  app::prepare_process();
   if (!app::start(argv)) return app::bad_input;
   CLI::App program("Liquids at the scale where surface tension and adhesion rule.", "sessile");
   program.set_version_flag("--version", "sessile " + std::string(version()));
   program.require_subcommand(1);
   program.footer(
-      "`sessile COMMAND --help` says more. Exit codes: 0 done, 1 the run failed, 2 wrong usage or scene, "
-      "130 interrupted.");
+      "`sessile COMMAND --help` says more. Exit codes: 0 done, 1 the run failed, 2 wrong usage or scene, 3 another "
+      "process writes into the folder, 128 + the signal's number when interrupted: 130 by Ctrl-C, 143 by SIGTERM.");
   int exit_code = app::done;
   app::add_run(program, exit_code);
   app::add_mesh(program, exit_code);
@@ -65,11 +68,11 @@ int main(int argc, char** argv) {
   } catch (const SceneError& e) {
     for (const std::string& line : e.messages) app::say(stderr, fmt::format("{}\n", line));
     return app::bad_input;
-  } catch (const std::bad_alloc&) {
-    app::say(stderr, "sessile: out of memory\n");
-    return app::run_failed;
+  } catch (const app::FolderInUse& e) {
+    app::tell(e);
+    return app::folder_in_use;
   } catch (const std::exception& e) {
-    app::say(stderr, fmt::format("sessile: {}\n", e.what()));
+    app::tell(e);
     return app::run_failed;
   }
   // What the other commands print is all they are for; these have their files.

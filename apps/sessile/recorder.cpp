@@ -29,7 +29,7 @@ bool asks_for_area(const Scene& scene) { return scene.output.surface && scene.ou
 StatsWriter stats_of(const std::filesystem::path& folder, const Simulation& simulation,
                      const std::optional<SessionState>& before) {
   const auto file = folder / "stats.csv";
-  if (before) return {file, before->stats_bytes};
+  if (before) return {file, Keep{before->stats_bytes}};
   return {file, simulation.walls().labels, asks_for_area(simulation.scene())};
 }
 

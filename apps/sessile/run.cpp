@@ -1,16 +1,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "advice.h"
+#include "checkpoints.h"
 #include "commands.h"
+#include "folder_lock.h"
 #include "prepare.h"
 #include "resume.h"
 #include "run_options.h"
 #include "say.h"
 #include "session.h"
+#include "signals.h"
 
 namespace sessile::app {
 namespace {
@@ -29,6 +34,26 @@ void print_end(const SessionResult& result, const std::string& folder) {
   say(stdout, text);
 }
 
+/// A run that ended for a fault of the machine: what can be done about that, and then goes on where it was.
+int say_failure(const std::exception& fault, const std::string& folder) {
+  tell(fault);
+  if (has_checkpoints(folder)) say(stderr, fmt::format("then go on with: sessile run --resume {}\n", folder));
+  return run_failed;
+}
+
+/// Runs, and says how to go on where a run fails that had begun.
+int attempt(const std::string& folder, const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const SceneError&) {
+    throw;
+  } catch (const FolderInUse&) {
+    throw;
+  } catch (const std::exception& e) {
+    return say_failure(e, folder);
+  }
+}
+
 int say_end(const SessionResult& result, const RunOptions& options) {
   if (result.error) std::rethrow_exception(result.error);
   const bool early = result.status == RunStatus::interrupted;
@@ -37,21 +62,29 @@ int say_end(const SessionResult& result, const RunOptions& options) {
                             result.resumable ? ", and it goes on with: sessile run --resume " + options.folder : ""));
   }
   if (options.progress != "json") print_end(result, options.folder);
-  return early ? interrupted : done;
+  return early ? interrupted_code() : done;
 }
 
 int run(RunOptions options) {
   apply_run_options(options, "");
+<<<<<<< HEAD
   const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides, options.places);
   const SessionResult result =
       run_session(resolved, {options.scene, options.folder, progress_style(options.progress), ""});
   return say_end(result, options);
+=======
+  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
+  const SessionOptions session{options.scene, options.folder, progress_style(options.progress), ""};
+  return attempt(options.folder, [&] { return say_end(run_session(resolved, session), options); });
+>>>>>>> issue6
 }
 
 int resume(RunOptions options, const std::string& folder, std::optional<double> at) {
   options.folder = folder;
   apply_run_options(options, "");
   const ResumeOptions wanted{folder, at, options.overrides};
+  std::optional<FolderLock> lock;  // before anything is read that another run might go on with
+  if (std::filesystem::is_directory(folder)) lock.emplace(folder);
   Resumable run = open_run(wanted);
   if (options.progress != "none") {
     for (const std::string& note : run.notes) say(stderr, "warning: " + note + "\n");
@@ -62,7 +95,8 @@ int resume(RunOptions options, const std::string& folder, std::optional<double> 
   }
   drop_newer_checkpoints(wanted, run);
   const SessionOptions session{folder, folder, progress_style(options.progress), ""};
-  return say_end(resume_session(std::move(run.simulation), session, run.before), options);
+  return attempt(
+      folder, [&] { return say_end(resume_session(std::move(run.simulation), session, run.before, *lock), options); });
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include "run_options.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <system_error>
+
+#include "threads.h"
 
 namespace sessile::app {
 
@@ -45,7 +46,7 @@ void add_run_options(CLI::App& command, RunOptions& options, const std::string& 
 }
 
 void apply_run_options(RunOptions& options, const std::string& folder_suffix) {
-  if (options.threads > 0) omp_set_num_threads(options.threads);
+  use_threads(options.threads);
   if (options.until) options.overrides.push_back(fmt::format("time.end={:.17g}", *options.until));
   if (options.folder.empty()) {
     const std::string stem = std::filesystem::path(options.scene).stem().string();

@@ -5,7 +5,10 @@
 #include <chrono>
 #include <utility>
 
+#include "advice.h"
 #include "checkpoints.h"
+#include "folder_lock.h"
+#include "mesh/surface_folder.h"
 #include "prepare.h"
 #include "recorder.h"
 #include "sessile/scene/describe.h"
@@ -49,11 +52,11 @@ CheckpointOutput checkpoints_of(const Scene& scene, const SessionOptions& option
 
 /// `start`: of the wall time that counts.
 SessionResult run_from(Simulation simulation, const SessionOptions& options, const StepWatch& watch,
-                       const std::optional<SessionState>& before, Clock::time_point start) {
+                       const std::optional<SessionState>& before, const FolderLock& lock, Clock::time_point start) {
   const double earlier = before ? before->wall_time : 0;
   const auto wall = [&] { return earlier + since(start); };
   SessionResult result;
-  heed_signals();  // only now: until here nothing is written, and a signal may end the program at once
+  refuse_if_in_use(options.folder / surface_folder_name);  // by `sessile mesh`: a run takes those surfaces out
   Recorder recorder(options.folder, simulation, before);
   Checkpoints checkpoints(options.folder, checkpoints_of(simulation.scene(), options),
                           before ? std::optional(simulation.time()) : std::nullopt);
@@ -63,6 +66,7 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
     checkpoints.write(simulation, session_json(state));
   };
   Progress progress(options.progress, options.name, simulation);
+  if (!lock.warning().empty()) progress.warn(lock.warning());
   Warnings warnings;
   RunFacts facts;
   facts.version = version();
@@ -72,6 +76,7 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
       const auto began = Clock::now();
       simulation.step();
       result.stepping += since(began);
+      lock.check();
       recorder.record(simulation);
       if (checkpoints.due(simulation)) keep_state();
       warnings.look(simulation, progress);
@@ -84,12 +89,12 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
   } catch (const std::exception& e) {
     // What has been written stays good; the summary says how it ended, if the disk still takes it.
     result.error = std::current_exception();
-    result.message = e.what();
+    result.message = sentence(e);
     facts.status = result.status = RunStatus::failed;
     facts.message = result.message;
     facts.wall_time = wall();
     try {
-      recorder.finish(simulation, facts);
+      if (lock.in_place()) recorder.finish(simulation, facts);
     } catch (const std::exception&) {
       // The first error is the one to report.
     }
@@ -112,11 +117,17 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
 
 SessionResult run_session(const ResolvedScene& resolved, const SessionOptions& options, const StepWatch& watch) {
   const auto start = Clock::now();
-  return run_from(set_up(resolved, options.scene_file), options, watch, {}, start);
+  refuse_if_in_use(options.folder);  // before a set-up that may take long
+  Simulation simulation = set_up(resolved, options.scene_file);
+  heed_signals();  // only now: until here nothing is written, and a signal may end the program at once
+  const FolderLock lock(options.folder);
+  return run_from(std::move(simulation), options, watch, {}, lock, start);
 }
 
-SessionResult resume_session(Simulation simulation, const SessionOptions& options, const SessionState& before) {
-  return run_from(std::move(simulation), options, {}, before, Clock::now());
+SessionResult resume_session(Simulation simulation, const SessionOptions& options, const SessionState& before,
+                             const FolderLock& lock) {
+  heed_signals();
+  return run_from(std::move(simulation), options, {}, before, lock, Clock::now());
 }
 
 }  // namespace sessile::app

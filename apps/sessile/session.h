@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "folder_lock.h"
 #include "progress.h"
 #include "sessile/output/summary.h"
 #include "sessile/scene/read.h"
@@ -41,11 +42,13 @@ using StepWatch = std::function<std::string(const Simulation&)>;
 
 /// Runs a scene into a folder: frames, stats.csv, summary.json. Ctrl-C ends it after the step at hand; a second one
 /// ends the program at once. What goes wrong in a step, or with the files meanwhile, stands in the result, and what has
-/// been written stays good. Throws SceneError and FileError of what comes before the first step, FileError of what
-/// comes after the last.
+/// been written stays good. Throws SceneError, FolderInUse and FileError of what comes before the first step, FileError
+/// of what comes after the last.
 SessionResult run_session(const ResolvedScene& resolved, const SessionOptions& options, const StepWatch& watch = {});
 
 /// Goes on with a simulation and its files from where a checkpoint left them.
-SessionResult resume_session(Simulation simulation, const SessionOptions& options, const SessionState& before);
+/// `lock` has been held since the checkpoint was read.
+SessionResult resume_session(Simulation simulation, const SessionOptions& options, const SessionState& before,
+                             const FolderLock& lock);
 
 }  // namespace sessile::app

@@ -16,6 +16,7 @@
 #include "sessile/scene/sampling.h"
 #include "sessile/scene/scene.h"
 #include "sessile/simulation_state.h"
+#include "sessile/step_health.h"
 #include "sessile/walls/walls.h"
 
 namespace sessile {
@@ -36,7 +37,8 @@ class Simulation {
   /// Throws as above, and SceneError when the state cannot be one of this scene.
   Simulation(Scene scene, SimulationState state);
 
-  /// One step of Algorithm 1. Throws RunError when a particle's position is no longer finite.
+  /// One step of Algorithm 1. Throws RunError when a particle's position is no longer finite, or when their count is
+  /// not what started and was let in less what left. Nothing but go_back_to() goes on from there.
   void step();
 
   /// Goes on with other values of the parameters that may change between two steps (scene/tuning.h); without a change,
@@ -46,6 +48,9 @@ class Simulation {
 
   /// All that the scene does not tell, copied between two steps.
   SimulationState state() const;
+
+  /// Goes on from a state() of its own, as if it had just been made of it. Throws SceneError when it is not one.
+  void go_back_to(const SimulationState& state);
 
   const Scene& scene() const { return scene_; }
   double time() const { return time_; }  ///< [s]
@@ -60,6 +65,7 @@ class Simulation {
   const Space& space() const { return space_; }  ///< displacements, across periodic faces too
 
   const StepReport& last_step() const { return last_step_; }
+  const StepHealth& health() const { return health_; }  ///< of the last step, of one that threw too
   const Totals& totals() const { return totals_; }
   const StageTimes& stage_times() const { return stage_times_; }
   std::size_t bytes() const;  ///< memory of particles, walls, neighbours and scratch
@@ -75,6 +81,7 @@ class Simulation {
 
  private:
   void set_up_surroundings();
+  void take_over(SimulationState state);
   void fill_bodies();
   void look_around();
   void find_normals();
@@ -86,8 +93,10 @@ class Simulation {
   void predict_velocities(double dt);
   void solve_pressure(double dt);
   void move(double dt);
+  std::string not_finite_text(double dt) const;
   void take_out_what_left();
   void let_in_new_layers();
+  void count() const;
 
   Scene scene_;
   Units units_;
@@ -99,6 +108,7 @@ class Simulation {
   std::vector<LayerSource> sources_;
   Walls walls_;
   std::vector<SolidGeometry> solids_;  // one per solid of walls_
+  std::vector<char> holds_liquid_;     // of each of them, whether the liquid is to stay on its one side
   bool coarse_walls_ = false;          // whether some solid's samples lie further apart than dx
   Grid grid_, wall_grid_;
   NeighborList fluid_neighbors_, wall_neighbors_;
@@ -109,6 +119,7 @@ class Simulation {
   mutable Array<Real> pairs_;   // the same of the field that the pass at hand gathers besides
   PressureScratch pressure_;
   StepReport last_step_;
+  StepHealth health_;
   Totals totals_;
   StageTimes stage_times_;
 };

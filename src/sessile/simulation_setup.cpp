@@ -140,6 +140,10 @@ void refuse_foreign(const SimulationState& state, const Scene& scene, const Wall
     whole = whole && array.size() == n;
     finite = finite && std::all_of(array.begin(), array.end(), [](auto x) { return std::isfinite(x); });
   });
+  if (static_cast<std::int64_t>(n) + state.totals.out != state.next_id || state.totals.emitted > state.next_id) {
+    faults.push_back(fmt::format("the state's particles do not add up: {} of {} are there and {} have left", n,
+                                 state.next_id, state.totals.out));
+  }
   if (!whole) faults.emplace_back("the state's fields of particles are of different lengths");
   if (!finite) faults.emplace_back("the state has numbers that are not finite");
   if (!(state.time >= 0) || !std::isfinite(state.time)) faults.emplace_back("the state has no time");
@@ -195,6 +199,8 @@ void Simulation::set_up_surroundings() {
   walls_ = make_walls(solids, scene_, grid_shape_, space_, wall_grid_);
   for (const Solid& solid : solids) {
     solids_.emplace_back(solid);
+    // Those that domain_walls() adds stand behind the scene's own.
+    holds_liquid_.push_back(solids_.size() > scene_.solids.size() || std::holds_alternative<Container>(solid.shape));
     coarse_walls_ = coarse_walls_ || solid.spacing.value_or(scene_.spacing) > 1.001 * scene_.spacing;
   }
   for (const Emitter& emitter : scene_.emitters) sources_.emplace_back(emitter, scene_.spacing, space_);
@@ -240,6 +246,16 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
 
 Simulation::Simulation(Scene scene, SimulationState state) : scene_(std::move(scene)) {
   set_up_surroundings();
+  take_over(std::move(state));
+}
+
+void Simulation::go_back_to(const SimulationState& state) {
+  pressure_ = {};  // what went wrong may have left numbers there that are not finite
+  health_ = {};
+  take_over(state);
+}
+
+void Simulation::take_over(SimulationState state) {
   refuse_foreign(state, scene_, walls_);
   time_ = state.time;
   particles_ = std::move(state.particles);

@@ -33,7 +33,7 @@ class ResumeTest(CliTest):
         found = {}
         for path in sorted((self.folder / folder).rglob("*")):
             name = str(path.relative_to(self.folder / folder))
-            if path.is_dir() or name.startswith("checkpoints/") or name in ("run.lock", ".lock"):
+            if path.is_dir() or name.startswith("checkpoints/") or name == ".sessile.lock":
                 continue
             if name == "summary.json":
                 summary = json.loads(path.read_text())

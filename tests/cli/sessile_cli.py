@@ -6,13 +6,21 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 PROGRAM = os.environ.get("SESSILE", "")
 VERSION = os.environ.get("SESSILE_VERSION", "")
 VARIANTS = os.environ.get("SESSILE_VARIANTS", "") == "1"  # whether the program was built for several instruction sets
 
-DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+FAULTS = os.environ.get("SESSILE_FAULTS", "")  # a library that makes calls of the C library fail, see faults.cpp
+
+DONE, FAILED, BAD_INPUT, IN_USE, INTERRUPTED = 0, 1, 2, 3, 130
+
+
+def ended_by(which):
+    """The exit code of a run that a signal ended after the step at hand."""
+    return 128 + which
 
 
 def tiny(**changes):
@@ -49,12 +57,30 @@ class CliTest(unittest.TestCase):
     def environment(self):
         return {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": "1", "LC_ALL": "C"}
 
-    def call(self, *arguments, code=DONE, before="", timeout=60, program=PROGRAM):
+    def loaded(self, faults):
+        """What the environment takes for a machine with these faults: CALL="fsync" and so on, see faults.cpp."""
+        if not faults:
+            return {}
+        if not FAULTS:
+            self.skipTest("SESSILE_FAULTS does not name the library of faults")
+        return {"LD_PRELOAD": FAULTS, **{f"FAULT_{key}": str(value) for key, value in faults.items()}}
+
+    def wait_for(self, *names, process=None):
+        """Waits until these files are there."""
+        until = time.monotonic() + 30
+        while not all((self.folder / name).exists() for name in names):
+            if process:
+                self.assertIsNone(process.poll(), "it ended by itself")
+            self.assertLess(time.monotonic(), until, f"no {names} appear")
+            time.sleep(0.01)
+
+    def call(self, *arguments, code=DONE, before="", timeout=60, program=PROGRAM, faults=None):
         """Runs the program, expects its exit code, returns (standard output, standard error). `before` is shell."""
         command = [program, *map(str, arguments)]
         if before:
             command = ["bash", "-c", before + '; exec "$@"', "bash", *command]
-        result = subprocess.run(command, cwd=self.folder, env=self.environment(), timeout=timeout, text=True,
+        result = subprocess.run(command, cwd=self.folder, env={**self.environment(), **self.loaded(faults)},
+                                timeout=timeout, text=True,
                                 stdin=subprocess.DEVNULL, capture_output=True)
         self.assertEqual(result.returncode, code, f"{command}\n{result.stdout}\n{result.stderr}")
         return result.stdout, result.stderr
@@ -67,10 +93,13 @@ class CliTest(unittest.TestCase):
         self.assertEqual(sorted(self.folder.rglob("*")), before, "a refused call wrote something")
         return err.splitlines()
 
-    def start(self, *arguments):
-        """The running program, ended with the test."""
-        process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, env=self.environment(), text=True,
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    def start(self, *arguments, before="", faults=None, user=None):
+        """The running program, ended with the test. `before` is shell, `faults` are for faults.cpp, `user` a number."""
+        command = [PROGRAM, *map(str, arguments)]
+        if before:
+            command = ["bash", "-c", before + '; exec "$@"', "bash", *command]
+        process = subprocess.Popen(command, cwd=self.folder, env={**self.environment(), **self.loaded(faults)}, text=True,
+                                   user=user, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
@@ -84,4 +113,4 @@ class CliTest(unittest.TestCase):
         return sorted(path.name for path in (self.folder / folder).iterdir())
 
 
-__all__ = ["CliTest", "DONE", "FAILED", "BAD_INPUT", "INTERRUPTED", "PROGRAM", "VARIANTS", "VERSION", "signal", "tiny", "unittest"]
+__all__ = ["CliTest", "DONE", "FAILED", "BAD_INPUT", "IN_USE", "INTERRUPTED", "ended_by", "PROGRAM", "VARIANTS", "VERSION", "signal", "subprocess", "tiny", "unittest"]

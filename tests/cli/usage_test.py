@@ -12,7 +12,7 @@ class Help(CliTest):
         self.assertEqual(err, "")
         for command in COMMANDS:
             self.assertRegex(out, rf"(?m)^  {command} +[A-Z].*\.$")
-        self.assertIn("Exit codes: 0 done, 1 the run failed, 2 wrong usage or scene, 130 interrupted.", out)
+        self.assertIn("Exit codes: 0 done, 1 the run failed, 2 wrong usage or scene, 3 another", out)
 
     def test_every_command(self):
         options = {"run": ["SCENE", "--output DIR", "--set PATH=VALUE", "--until SECONDS", "--threads N", "--progress"],
@@ -59,7 +59,7 @@ class WrongUsage(CliTest):
 
     def test_options(self):
         scene = self.write(tiny())
-        self.expect(["run"], "scene is required")
+        self.expect(["run"], "a SCENE, or --resume DIR, is required")
         self.expect(["check"], "scene is required")
         self.expect(["run", scene, "--thread=1"], "The following argument was not expected: --thread=1")
         self.expect(["run", scene, "other.json"], "The following argument was not expected: other.json")

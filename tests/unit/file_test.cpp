@@ -88,6 +88,22 @@ TEST(LineFile, GrowsByLines) {
   EXPECT_EQ(read_file(folder / "x.csv"), "a,b\n1,2\n");  // while it is still open
 }
 
+TEST(LineFile, GoesOnWithTheStartOfAFile) {
+  const TemporaryFolder folder;
+  { LineFile(folder / "x.csv").append("1\n2\n3\n"); }
+  {
+    LineFile file(folder / "x.csv", Keep{4});
+    EXPECT_EQ(file.size(), 4u);
+    file.append("four\n");
+    file.sync();
+    EXPECT_EQ(file.size(), 9u);
+  }
+  EXPECT_EQ(read_file(folder / "x.csv"), "1\n2\nfour\n");
+  EXPECT_THROW(LineFile(folder / "x.csv", Keep{10}), FileError);
+  EXPECT_EQ(read_file(folder / "x.csv"), "1\n2\nfour\n");
+  EXPECT_THROW(LineFile(folder / "y.csv", Keep{0}), FileError);
+}
+
 TEST(LineFile, TakesBackHalfALine) {
   TemporaryFolder folder;
   LineFile file(folder / "x.csv");

@@ -188,7 +188,7 @@ TEST(SceneReference, IsUpToDate) {
 
 TEST(SceneReference, KnowsEveryGroup) {
   const auto groups = scene_reference();
-  EXPECT_EQ(groups.size(), 31U + std::variant_size_v<SurfaceMethod>);
+  EXPECT_EQ(groups.size(), 32U + std::variant_size_v<SurfaceMethod>);
   EXPECT_TRUE(has(models_text(), "  iisph: "));
   EXPECT_TRUE(has(models_text(), "  container: "));
   EXPECT_TRUE(has(scene_reference_markdown(), "## Type `box`"));

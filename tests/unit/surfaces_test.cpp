@@ -203,6 +203,41 @@ TEST(SurfaceUsda, LeavesNothingBehindWhenItFails) {
   EXPECT_EQ(folder.entries(), 0u);
 }
 
+/// The text that four frames make when a writer stopped after `stopped` of them, and one goes on after `kept`.
+std::string resumed_usda(const std::filesystem::path& file, int stopped, int kept, bool killed) {
+  const auto add = [](UsdaWriter& writer, int from, int to) {
+    for (int k = from; k < to; ++k) {
+      SurfaceMesh mesh = k == 1 ? SurfaceMesh{} : tetrahedron(0.04 * k);
+      mesh.time = 0.1 + 0.04 * k;
+      writer.add(mesh);
+    }
+  };
+  if (stopped > 0) {
+    UsdaWriter writer(file, 30);
+    if (killed) writer.leave_parts();
+    add(writer, 0, stopped);
+    if (!killed) writer.finish({0, 0, 1}, {});
+  }
+  UsdaWriter writer(file, 30, static_cast<std::size_t>(kept), 0.1 + 0.04 * (kept - 1));
+  add(writer, kept, 4);
+  writer.finish({0, 0, 1}, {});
+  return read_file(file);
+}
+
+TEST(SurfaceUsda, GoesOnWhereAWriterWasStopped) {
+  TemporaryFolder folder;
+  const std::string whole = resumed_usda(folder / "whole.usda", 0, 0, false);
+  for (const bool killed : {false, true}) {
+    for (const int stopped : {2, 4}) {
+      EXPECT_EQ(resumed_usda(folder / "surface.usda", stopped, 2, killed), whole) << killed << stopped;
+      EXPECT_EQ(folder.entries(), 2u);
+      std::filesystem::remove(folder / "surface.usda");
+    }
+  }
+  EXPECT_THROW(resumed_usda(folder / "surface.usda", 2, 3, false), FileError);
+  EXPECT_THROW(resumed_usda(folder / "none.usda", 0, 2, false), FileError);
+}
+
 TEST(CheckOutput, NamesUnknownFormatsOfSurfaces) {
   Scene scene;
   scene.output.surface.emplace().formats = {"ply", "usd"};

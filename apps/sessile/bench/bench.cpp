@@ -63,7 +63,7 @@ bool wanted(const BenchOptions& options, std::string_view name) {
 
 void run_bench(const BenchOptions& options) {
   // Nothing is half written at any time: the program may end where it stands.
-  std::signal(SIGINT, [](int) { _exit(interrupted); });
+  std::signal(SIGINT, [](int) { _exit(128 + SIGINT); });
   if (options.threads > 0) omp_set_num_threads(options.threads);
   Report report(options.particles == 0);
   Context context{options.runs, omp_get_max_threads(), options.particles, report};

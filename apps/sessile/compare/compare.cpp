@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "comparison.h"
+#include "folder_lock.h"
 #include "methods.h"
 #include "plots.h"
 #include "prepare.h"
@@ -13,6 +14,7 @@
 #include "say.h"
 #include "sessile/core/error.h"
 #include "sessile/output/file.h"
+#include "signals.h"
 #include "trials.h"
 
 namespace sessile::app {
@@ -67,9 +69,12 @@ int compare(CompareOptions options) {
   const ResolvedScene scene = read_runnable_scene(options.run.scene, options.run.overrides, options.run.places);
   const std::vector<Contestant> contestants = read_contestants(options.methods, options.run.scene, scene);
   const TrialSettings settings = settings_of(options, scene.scene);
+  refuse_if_in_use(settings.folder);
   // What only sampling shows, for every method before the first one runs.
   for (const Contestant& contestant : contestants) set_up(contestant.resolved, options.run.scene);
 
+  const FolderLock lock(settings.folder);
+  if (!lock.warning().empty()) say(stderr, "warning: " + lock.warning() + "\n");
   Comparison comparison;
   comparison.folder = settings.folder;
   comparison.scene_file = options.run.scene;
@@ -91,7 +96,7 @@ int compare(CompareOptions options) {
     say(stdout,
         fmt::format("comparison.md, comparison.csv, comparison.json and plots are in {}\n", options.run.folder));
   }
-  return comparison.interrupted ? interrupted : done;
+  return comparison.interrupted ? interrupted_code() : done;
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <chrono>
 #include <filesystem>
@@ -21,6 +20,7 @@
 #include "sessile/surface/reconstruct.h"
 #include "signals.h"
 #include "surface_folder.h"
+#include "threads.h"
 
 namespace sessile::app {
 namespace {
@@ -145,13 +145,14 @@ int mesh_folder(const MeshOptions& options) {
   heed_signals();
   SurfaceFolder surfaces(folder, results.folder, results.scene, std::move(plan),
                          options.again ? std::optional<std::size_t>(0) : std::nullopt);
+  if (!surfaces.lock().warning().empty()) say(stderr, "warning: " + surfaces.lock().warning() + "\n");
   surfaces.keep_only(results.frames);
   const std::vector<Due> work = due_of(surfaces, frames);
   const Tally tally = make(surfaces, work, style);
   const bool early = tally.made < work.size();
   if (early) say(stderr, fmt::format("interrupted; {} of {} frames are written\n", tally.made, work.size()));
   if (options.progress != "json") print_end(tally, frames.size() - work.size(), folder.string());
-  return early ? interrupted : done;
+  return early ? interrupted_code() : done;
 }
 
 /// Where a frame's surface goes: frame_000012.vtp becomes surface_000012.ply, spray.vtp becomes spray_surface.ply.
@@ -190,7 +191,7 @@ int mesh_frame(const MeshOptions& options) {
 }
 
 int mesh(const MeshOptions& options) {
-  if (options.threads > 0) omp_set_num_threads(options.threads);
+  use_threads(options.threads);
   return fs::is_directory(options.source) ? mesh_folder(options) : mesh_frame(options);
 }
 

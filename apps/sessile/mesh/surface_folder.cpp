@@ -97,10 +97,11 @@ Vec3d up_of(const Scene& scene) {
 SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scene& scene, SurfacePlan plan,
                              std::optional<std::size_t> keep)
     : folder_(std::move(folder)),
+      lock_(folder_),
       plan_(std::move(plan)),
+      resumable_(keep.has_value()),
       formats_(formats_named(plan_.formats)),
       solids_(solid_meshes(scene)) {
-  create_output_folder(folder_);
   index_.source = fs::absolute(source).lexically_normal().lexically_proximate(fs::absolute(folder_).lexically_normal());
   index_.spacing = plan_.spacing;
   index_.up = up_of(scene);
@@ -114,8 +115,7 @@ SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scen
       keep_first(*keep);
     }
   } else {
-    remove_surfaces(folder_);
-    create_output_folder(folder_);
+    remove_surfaces(folder_);  // not the folder itself: the lock is in it
   }
   write_solids();
   write_index();
@@ -181,6 +181,7 @@ void SurfaceFolder::write(std::int64_t number, const SurfaceMesh& mesh,
   for (const SurfaceFormat* format : formats) {
     if (is_sequence(*format)) {
       if (!sequence_) sequence_.emplace(folder_ / sequence_file, plan_.frames_per_second);
+      if (resumable_) sequence_->leave_parts();
       sequence_->add(mesh);
       sequence_frames_.push_back(number);
       continue;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "folder_lock.h"
 #include "sessile/output/frames.h"
 #include "sessile/output/surfaces.h"
 #include "sessile/output/usda.h"
@@ -43,7 +44,8 @@ class SurfaceFolder {
  public:
   /// Makes the folder and writes the solids. Of what lies there already, surfaces of the same particles and settings
   /// stay listed, the first `keep` of them; others are removed. `source` is the folder of the particles.
-  /// Throws FileError, also when fewer than `keep` are there.
+  /// Throws FileError, also when fewer than `keep` are there, and FolderInUse while another process writes surfaces
+  /// there.
   SurfaceFolder(std::filesystem::path folder, const std::filesystem::path& source, const Scene& scene, SurfacePlan plan,
                 std::optional<std::size_t> keep);
 
@@ -62,6 +64,7 @@ class SurfaceFolder {
 
   const SurfacePlan& plan() const { return plan_; }
   const std::filesystem::path& folder() const { return folder_; }
+  const FolderLock& lock() const { return lock_; }
 
  private:
   void keep_first(std::size_t count);
@@ -70,7 +73,9 @@ class SurfaceFolder {
   SurfaceEntry& entry(std::int64_t number);
 
   std::filesystem::path folder_;
+  FolderLock lock_;
   SurfacePlan plan_;
+  bool resumable_;  // whether a run writes here, that may go on one day
   std::vector<const SurfaceFormat*> formats_;
   std::vector<SolidMesh> solids_;
   SurfaceIndex index_;

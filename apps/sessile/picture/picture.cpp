@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <filesystem>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "say.h"
 #include "sessile/core/error.h"
 #include "signals.h"
+#include "threads.h"
 
 namespace sessile::app {
 namespace {
@@ -45,7 +45,7 @@ int take_picture(Studio& studio, auto& footage, const PictureOptions& options) {
   }
   std::vector<draw::Moment> moments;
   footage.play([&](draw::Moment&& moment) { moments.push_back(std::move(moment)); });
-  if (stop_asked() || moments.empty()) return interrupted;
+  if (stop_asked() || moments.empty()) return interrupted_code();
   studio.set_up(footage.stage(), moments, moments.size());
   draw::write_png(options.picture, studio.draw(moments, options.range.value_or(common_range(moments))));
   return done;
@@ -73,10 +73,10 @@ int take_video(Studio& studio, auto& footage, const PictureOptions& options) {
     video.add(studio.draw({&moment, 1}, *range));
     progress.update(++count, fmt::format("t = {:.4g} s", moment.time));
   });
-  if (count == 0) return interrupted;
+  if (count == 0) return interrupted_code();
   video.finish();
   if (stop_asked()) say(stderr, fmt::format("interrupted; the video holds {} of {} frames\n", count, footage.count()));
-  return stop_asked() ? interrupted : done;
+  return stop_asked() ? interrupted_code() : done;
 }
 
 template <class Footage>
@@ -92,7 +92,7 @@ int picture(const PictureOptions& options) {
     say(stderr, fmt::format("sessile: {}\n", reason));
     return bad_input;
   }
-  if (options.threads > 0) omp_set_num_threads(options.threads);
+  use_threads(options.threads);
   std::error_code ignored;
   const bool is_folder = std::filesystem::is_directory(options.source, ignored);
   try {

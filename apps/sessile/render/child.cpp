@@ -16,28 +16,14 @@
 #include <cstring>
 #include <string_view>
 
+#include "descriptor.h"
 #include "sessile/core/error.h"
+#include "signals.h"
 
 namespace sessile::app {
 namespace {
 
 constexpr int patience = 5000;  // how long the child may take to end when it is asked to [ms]
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 /// Holds back Ctrl-C and its like while it lives; they can be read from a descriptor instead.
 class HeldSignals {
@@ -45,7 +31,11 @@ class HeldSignals {
   HeldSignals() {
     sigset_t held;
     sigemptyset(&held);
-    for (const int each : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, each);
+    for (const int each : {SIGINT, SIGTERM, SIGHUP}) {
+      struct sigaction now {};
+      const bool ignored = sigaction(each, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;  // SIGHUP under nohup
+      if (!ignored) sigaddset(&held, each);
+    }
     sigprocmask(SIG_BLOCK, &held, &before_);
     descriptor_ = signalfd(-1, &held, SFD_CLOEXEC | SFD_NONBLOCK);
   }
@@ -59,8 +49,7 @@ class HeldSignals {
 
   void take() const {
     signalfd_siginfo signal{};
-    while (::read(descriptor_, &signal, sizeof signal) > 0) {
-    }
+    while (::read(descriptor_, &signal, sizeof signal) > 0) note_stop(static_cast<int>(signal.ssi_signo));
   }
   int descriptor() const { return descriptor_; }
   const sigset_t& before() const { return before_; }

@@ -10,6 +10,7 @@
 #include "blender.h"
 #include "commands.h"
 #include "film.h"
+#include "folder_lock.h"
 #include "job.h"
 #include "mesh/selection.h"
 #include "run_options.h"
@@ -17,6 +18,7 @@
 #include "sessile/core/error.h"
 #include "sessile/output/file.h"
 #include "settings.h"
+#include "signals.h"
 #include "surfaces.h"
 #include "used_settings.h"
 
@@ -83,7 +85,7 @@ std::vector<std::int64_t> numbers(const std::vector<SurfaceFile>& frames) {
 int save_blend(RenderJob& job, const BlenderOptions& options) {
   job.blend = fs::absolute(job.blend);
   create_output_folder(job.blend.parent_path());
-  if (!run_blender(job, options)) return interrupted;
+  if (!run_blender(job, options)) return interrupted_code();
   say(stdout, fmt::format("{} holds {} frames, camera, light and materials\n", job.blend.string(), job.frames.size()));
   return done;
 }
@@ -101,7 +103,7 @@ int film_of(const RenderJob& job, const std::vector<SurfaceFile>& frames, double
     case FilmEnd::interrupted:
       break;
   }
-  return interrupted;
+  return interrupted_code();
 }
 
 int render(const RenderOptions& options) {
@@ -115,7 +117,8 @@ int render(const RenderOptions& options) {
   job.output = options.output.empty() ? results / "render" : fs::path(options.output);
   job.blend = options.blend;
   job.frames = numbers(frames);
-  create_output_folder(job.output);
+  const FolderLock lock(job.output);
+  if (!lock.warning().empty()) say(stderr, "warning: " + lock.warning() + "\n");
   const BlenderOptions how{options.threads, progress_style(options.progress)};
   if (!job.blend.empty()) return save_blend(job, how);
 
@@ -126,7 +129,7 @@ int render(const RenderOptions& options) {
   if (!missing.empty() && !run_blender(job, how)) {
     say(stderr, fmt::format("interrupted; the frames that are done are in {}, the same command goes on with the rest\n",
                             job.output.string()));
-    return interrupted;
+    return interrupted_code();
   }
   say(stdout, fmt::format("{} frames rendered, {} were there; they are in {}\n", missing.size(),
                           frames.size() - missing.size(), job.output.string()));

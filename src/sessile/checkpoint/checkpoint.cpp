@@ -11,8 +11,12 @@
 
 #include "sessile/checkpoint/archive.h"
 #include "sessile/core/error.h"
+<<<<<<< HEAD
 #include "sessile/output/file.h"
 #include "sessile/scene/input_file.h"
+=======
+#include "sessile/output/durable.h"
+>>>>>>> issue6
 
 namespace sessile {
 namespace {
@@ -103,7 +107,7 @@ Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name, st
 }
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  write_whole(file, encode_checkpoint(checkpoint));
+  write_durably(file, encode_checkpoint(checkpoint));
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct SceneError : Error {
 /// A file or folder that cannot be read or written; names the path and the system's reason.
 struct FileError : Error {
   using Error::Error;
+  FileError(const std::string& sentence, std::error_code why) : Error(sentence), reason(why) {}
+
+  std::error_code reason{};  ///< of the system, where it gave one while something was written
 };
 
 /// A simulation that went wrong while running (a position that is not finite, memory exhausted).

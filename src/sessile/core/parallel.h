@@ -5,6 +5,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "sessile/core/first_error.h"
+
 namespace sessile {
 
 /// Particles per unit of parallel work. Blocks do not depend on the number of threads, so neither do results.
@@ -15,14 +17,17 @@ constexpr std::ptrdiff_t block_count(std::size_t n) {
 }
 
 /// Calls f(block, begin, end) for consecutive ranges of at most block_size out of 0 ... n-1, on all threads.
+/// Throws what a call has thrown; blocks are then left out.
 template <class F>
 void for_each_block(std::size_t n, F&& f) {
   const std::ptrdiff_t blocks = block_count(n);
   const auto last = static_cast<std::ptrdiff_t>(n);
+  FirstError error;
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::ptrdiff_t block = 0; block < blocks; ++block) {
-    f(block, block * block_size, std::min(last, (block + 1) * block_size));
+    error.guard([&] { f(block, block * block_size, std::min(last, (block + 1) * block_size)); });
   }
+  error.rethrow();
 }
 
 /// Calls kernel(i) for i = 0 ... n-1, on all threads.

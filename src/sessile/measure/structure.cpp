@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "sessile/core/first_error.h"
+
 namespace sessile {
 namespace {
 
@@ -121,34 +123,39 @@ Structure structure(const Cloud& cloud) {
   const auto support2 = static_cast<Real>(std::pow(cloud.support_radius, 2));
 
   std::vector<Part> parts((n + particles_per_block - 1) / particles_per_block);
+  FirstError error;
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t block = 0; block < parts.size(); ++block) {
-    const std::size_t begin = block * particles_per_block, end = std::min(n, begin + particles_per_block);
-    Part& part = parts[block];
-    const auto first = static_cast<std::int32_t>(begin);
-    Array<Real> distances;
-    Array<std::int32_t> links;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto neighbors = cloud.fluid_neighbors[i], walls = cloud.wall_neighbors[i];
-      nearest[i] = std::min(support2, squared_distances(cloud, i, cloud.position, neighbors, distances));
+    error.guard([&] {
+      const std::size_t begin = block * particles_per_block, end = std::min(n, begin + particles_per_block);
+      Part& part = parts[block];
+      const auto first = static_cast<std::int32_t>(begin);
+      Array<Real> distances;
+      Array<std::int32_t> links;
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto neighbors = cloud.fluid_neighbors[i], walls = cloud.wall_neighbors[i];
+        nearest[i] = std::min(support2, squared_distances(cloud, i, cloud.position, neighbors, distances));
 
-      // A block joins only its own particles, so that blocks do not meet; links between blocks wait until all are done.
-      const auto self = static_cast<std::int32_t>(i);
-      const std::size_t linked = keep_linked(neighbors, distances, link2, self, links);
-      std::int32_t set = self;
-      for (std::size_t k = 0; k < linked; ++k) {
-        if (links[k] >= first) {
-          set = sets.join(set, links[k]);
-        } else {
-          part.links.emplace_back(self, links[k]);
+        // A block joins only its own particles, so that blocks do not meet; links between blocks wait until all are
+        // done.
+        const auto self = static_cast<std::int32_t>(i);
+        const std::size_t linked = keep_linked(neighbors, distances, link2, self, links);
+        std::int32_t set = self;
+        for (std::size_t k = 0; k < linked; ++k) {
+          if (links[k] >= first) {
+            set = sets.join(set, links[k]);
+          } else {
+            part.links.emplace_back(self, links[k]);
+          }
         }
-      }
 
-      part.loose += neighbors.size() <= loose_neighbors && walls.empty();
-      touches[i] = squared_distances(cloud, i, cloud.wall_position, walls, distances) < link2;
-      part.first_layer += touches[i];
-    }
+        part.loose += neighbors.size() <= loose_neighbors && walls.empty();
+        touches[i] = squared_distances(cloud, i, cloud.wall_position, walls, distances) < link2;
+        part.first_layer += touches[i];
+      }
+    });
   }
+  error.rethrow();
   for (const Part& part : parts) {
     result.loose += part.loose;
     result.first_layer += part.first_layer;

@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 FileError failure(std::string_view what, const fs::path& path, int error) {
-  return FileError(fmt::format("cannot {} {}: {}", what, path.string(), std::generic_category().message(error)));
+  const std::error_code reason(error, std::generic_category());
+  return FileError(fmt::format("cannot {} {}: {}", what, path.string(), reason.message()), reason);
 }
 
 /// Opens, or returns -1 with errno. Descriptors do not leak into programs that are started meanwhile.
@@ -108,13 +109,18 @@ LineFile::LineFile(fs::path path) : path_(std::move(path)), descriptor_(open_ane
   if (descriptor_ < 0) throw failure("write", path_, errno);
 }
 
+<<<<<<< HEAD
 LineFile::LineFile(fs::path path, std::uint64_t keep)
     : path_(std::move(path)), descriptor_(open_descriptor(path_, O_WRONLY | O_APPEND | O_NOFOLLOW)), size_(keep) {
+=======
+LineFile::LineFile(fs::path path, Keep keep)
+    : path_(std::move(path)), descriptor_(open_descriptor(path_, O_WRONLY | O_APPEND)), size_(keep.bytes) {
+>>>>>>> issue6
   if (descriptor_ < 0) throw failure("go on with", path_, errno);
   struct stat now {};
   int error = ::fstat(descriptor_, &now) == 0 ? 0 : errno;
-  const bool shorter = error == 0 && static_cast<std::uint64_t>(now.st_size) < keep;
-  if (error == 0 && !shorter && ::ftruncate(descriptor_, static_cast<off_t>(keep)) != 0) error = errno;
+  const bool shorter = error == 0 && static_cast<std::uint64_t>(now.st_size) < keep.bytes;
+  if (error == 0 && !shorter && ::ftruncate(descriptor_, static_cast<off_t>(keep.bytes)) != 0) error = errno;
   if (error == 0 && !shorter) return;
   ::close(descriptor_);
   if (shorter) throw FileError(fmt::format("cannot go on with {}: it is shorter than it was", path_.string()));

@@ -22,15 +22,21 @@ void finish_part(const std::filesystem::path& path);
 /// Throws FileError when that fails, when `path` is something else, or when nothing may be written into it.
 void create_output_folder(const std::filesystem::path& path);
 
+/// How much of a file stays that is gone on with [bytes].
+struct Keep {
+  explicit Keep(std::uint64_t length) : bytes(length) {}
+  std::uint64_t bytes;
+};
+
 /// A file that grows by whole lines. What has been appended stays good whenever the program ends.
 class LineFile {
  public:
   /// Makes `path` anew and empty; a link of that name is replaced. Throws FileError.
   explicit LineFile(std::filesystem::path path);
 
-  /// Opens `path` as it is and takes back what follows its first `keep` bytes.
+  /// Opens `path` as it is and takes back what follows the part that stays.
   /// Throws FileError, also when it is not as long as that.
-  LineFile(std::filesystem::path path, std::uint64_t keep);
+  LineFile(std::filesystem::path path, Keep keep);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;

@@ -42,8 +42,8 @@ class StatsWriter {
   /// Opens the file anew and writes its header. Throws FileError.
   StatsWriter(const std::filesystem::path& path, std::span<const std::string> solid_labels, bool surface = false);
 
-  /// Goes on with a file that it wrote, behind its first `keep` bytes. Throws FileError.
-  StatsWriter(const std::filesystem::path& path, std::uint64_t keep) : file_(path, keep) {}
+  /// Goes on with a file that it wrote. Throws FileError.
+  StatsWriter(const std::filesystem::path& path, Keep keep) : file_(path, keep) {}
 
   /// Appends a line. Throws FileError; then no half line is left.
   void write(const StatsRow& row);

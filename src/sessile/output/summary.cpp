@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "sessile/output/file.h"
+#include "sessile/output/durable.h"
 #include "sessile/output/json_object.h"
 
 namespace sessile {
@@ -99,7 +99,7 @@ std::string summary_json(const RunFacts& run, const SimulationFacts& simulation)
 }
 
 void write_summary(const std::filesystem::path& path, const RunFacts& run, const SimulationFacts& simulation) {
-  write_whole(path, summary_json(run, simulation));
+  write_durably(path, summary_json(run, simulation));
 }
 
 }  // namespace sessile

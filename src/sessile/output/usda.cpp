@@ -117,6 +117,7 @@ UsdaWriter::UsdaWriter(std::filesystem::path file, double frames_per_second, std
 UsdaWriter::~UsdaWriter() {
   std::error_code ignored;
   std::filesystem::remove(part_name(file_), ignored);
+  if (leaves_parts_) return;
   for (const Attribute& each : attributes_) std::filesystem::remove(each.file, ignored);
 }
 
@@ -185,7 +186,7 @@ std::size_t UsdaWriter::take_from_parts(double until) {
       if (found.name != points_name) continue;
       if (frames++ == 0) first_code_ = *code;
     }
-    found.samples = std::make_unique<LineFile>(part, keep);
+    found.samples = std::make_unique<LineFile>(part, Keep{keep});
     attributes_.push_back(std::move(found));
   }
 }
@@ -243,6 +244,7 @@ void UsdaWriter::finish(const Vec3d& up, std::span<const SolidMesh> solids) {
     out.append("}\n");
   }
   finish_part(file_);
+  leaves_parts_ = false;
 }
 
 }  // namespace sessile

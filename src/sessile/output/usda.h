@@ -26,6 +26,9 @@ class UsdaWriter {
   /// finished or was killed. Throws FileError when they are not there.
   UsdaWriter(std::filesystem::path file, double frames_per_second, std::size_t count, double until);
 
+  /// From now on, what has not been joined stays for a writer that goes on with it.
+  void leave_parts() { leaves_parts_ = true; }
+
   /// Takes back what has not been joined.
   ~UsdaWriter();
   UsdaWriter(UsdaWriter&&) = delete;
@@ -55,7 +58,7 @@ class UsdaWriter {
   std::filesystem::path file_;
   double rate_;
   double code_ = 0, first_code_ = 0;  // of the last frame, of the first one
-  bool any_ = false;
+  bool any_ = false, leaves_parts_ = false;
   std::vector<Attribute> attributes_;
 };
 

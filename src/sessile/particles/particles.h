@@ -59,4 +59,9 @@ struct Particles {
   std::tuple<Array<Real>, Array<std::int64_t>> reorder_scratch_;  // one for each type of a field
 };
 
+/// Kinetic energy of a particle in units of a particle mass of rho0 dx^3 [m^2/s^2].
+inline double kinetic(const Particles& particles, std::size_t k) {
+  return 0.5 * static_cast<double>(particles.mass[k]) * squared_length(vec_cast<double>(particles.velocity[k]));
+}
+
 }  // namespace sessile

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "sessile/core/first_error.h"
 #include "sessile/scene/frame.h"
 #include "sessile/scene/lattice.h"
 #include "sessile/scene/mesh_space.h"
@@ -29,6 +30,7 @@ std::vector<Vec3d> lattice(const Vec3d& centre, const Vec3d& size, double spacin
              nz = static_cast<std::int64_t>(counts[2]);
   std::vector<Vec3d> points;
   std::vector<char> taken(static_cast<std::size_t>(nx * ny));
+  FirstError error;
   for (std::int64_t k = 0; k < nz; ++k) {
     const auto place = [&](std::int64_t i, std::int64_t j) {
       return centre +
@@ -36,8 +38,11 @@ std::vector<Vec3d> lattice(const Vec3d& centre, const Vec3d& size, double spacin
     };
 #pragma omp parallel for schedule(static)
     for (std::int64_t j = 0; j < ny; ++j) {
-      for (std::int64_t i = 0; i < nx; ++i) taken[static_cast<std::size_t>(j * nx + i)] = inside(place(i, j)) ? 1 : 0;
+      error.guard([&] {
+        for (std::int64_t i = 0; i < nx; ++i) taken[static_cast<std::size_t>(j * nx + i)] = inside(place(i, j)) ? 1 : 0;
+      });
     }
+    error.rethrow();
     for (std::int64_t j = 0; j < ny; ++j) {
       for (std::int64_t i = 0; i < nx; ++i) {
         if (taken[static_cast<std::size_t>(j * nx + i)] != 0) points.push_back(place(i, j));

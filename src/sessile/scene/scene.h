@@ -13,6 +13,7 @@
 #include "sessile/pressure/pressure.h"
 #include "sessile/scene/render_settings.h"
 #include "sessile/scene/shapes.h"
+#include "sessile/scene/stability_settings.h"
 #include "sessile/scene/surface_settings.h"
 
 /// A scene as plain structs: what a scene file says, after defaults, in SI units.
@@ -247,6 +248,7 @@ struct Scene {
   std::vector<Emitter> emitters;
   std::optional<Domain> domain;
   std::vector<Solid> solids;
+  StabilitySettings stability{};
   Output output{};
   std::optional<RenderSettings> render;
 
@@ -265,6 +267,7 @@ struct Scene {
         field(&T::emitters, "emitters", "liquid let in later"),
         derived(field(&T::domain, "domain", "the box that is looked at"), "unbounded space"),
         field(&T::solids, "solids", "what the liquid cannot enter"),
+        field(&T::stability, "stability", "what happens when a run goes unstable"),
         field(&T::output, "output", "what a run writes"),
         derived(field(&T::render, "render", "what `sessile render` makes of it"), "its defaults"),
     };

@@ -18,32 +18,36 @@ void for_each_block_and_blob(const BlockMap& map, const Blobs& blobs, const Star
                              const Finish& finish) {
   const double per_point = 1 / map.cube();
   const auto count = static_cast<std::ptrdiff_t>(map.size());
+  FirstError error;
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::ptrdiff_t first = 0; first < count; first += blocks_at_once) {
-    Grid::Cursor cursor;
-    Sums sums;
-    std::array<PlaceRange, 18> ranges;
-    for (auto b = static_cast<std::size_t>(first);
-         b < static_cast<std::size_t>(std::min(count, first + blocks_at_once)); ++b) {
-      start(b, sums);
-      const BlockPlace& place = map.place(b);
-      const auto corner = [](std::int64_t at) { return static_cast<double>(at * block_edge); };
-      const Vec3d origin{corner(place.x), corner(place.y), corner(place.z)};
-      const auto misses = [](double at, double reach) { return at + reach < 0 || at - reach > block_edge - 1; };
-      const int found = map.grid().around(map.cell(b), cursor, ranges);
-      for (int r = 0; r < found; ++r) {
-        const PlaceRange range = ranges[static_cast<std::size_t>(r)];
-        for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
-          const Blob& blob = blobs.blobs[i];
-          const Vec3d at = per_point * vec_cast<double>(blobs.centers[i]) - origin;
-          const Vec3d reach = per_point * vec_cast<double>(blob.reach);
-          if (misses(at.x, reach.x) || misses(at.y, reach.y) || misses(at.z, reach.z)) continue;
-          visit(b, sums, i, vec_cast<float>(at));
+    error.guard([&] {
+      Grid::Cursor cursor;
+      Sums sums;
+      std::array<PlaceRange, 18> ranges;
+      for (auto b = static_cast<std::size_t>(first);
+           b < static_cast<std::size_t>(std::min(count, first + blocks_at_once)); ++b) {
+        start(b, sums);
+        const BlockPlace& place = map.place(b);
+        const auto corner = [](std::int64_t at) { return static_cast<double>(at * block_edge); };
+        const Vec3d origin{corner(place.x), corner(place.y), corner(place.z)};
+        const auto misses = [](double at, double reach) { return at + reach < 0 || at - reach > block_edge - 1; };
+        const int found = map.grid().around(map.cell(b), cursor, ranges);
+        for (int r = 0; r < found; ++r) {
+          const PlaceRange range = ranges[static_cast<std::size_t>(r)];
+          for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
+            const Blob& blob = blobs.blobs[i];
+            const Vec3d at = per_point * vec_cast<double>(blobs.centers[i]) - origin;
+            const Vec3d reach = per_point * vec_cast<double>(blob.reach);
+            if (misses(at.x, reach.x) || misses(at.y, reach.y) || misses(at.z, reach.z)) continue;
+            visit(b, sums, i, vec_cast<float>(at));
+          }
         }
+        finish(b, sums);
       }
-      finish(b, sums);
-    }
+    });
   }
+  error.rethrow();
 }
 
 /// Adds kernel(q^2) for the points of a block that a blob reaches. `cube2` is the square of the distance of points.

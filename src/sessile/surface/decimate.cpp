@@ -9,6 +9,7 @@
 #include <numeric>
 #include <vector>
 
+#include "sessile/core/first_error.h"
 #include "sessile/surface/manifold.h"
 
 namespace sessile {
@@ -198,11 +199,13 @@ void decimate(SurfaceMesh& mesh, double share, double error) {
   const Pieces pieces(mesh);
   std::vector<Indices> fewer(pieces.size());
   const auto count = static_cast<std::ptrdiff_t>(pieces.size());
+  FirstError fault;
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::ptrdiff_t k = 0; k < count; ++k) {
     const auto p = static_cast<std::size_t>(k);
-    fewer[p] = Decimation(pieces.at(p)).run(share, error);
+    fault.guard([&] { fewer[p] = Decimation(pieces.at(p)).run(share, error); });
   }
+  fault.rethrow();
   Indices triangles;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     for (const std::uint32_t v : fewer[p]) triangles.push_back(pieces.vertex(p, v));

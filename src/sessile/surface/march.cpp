@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sessile/core/error.h"
+#include "sessile/core/first_error.h"
 #include "sessile/surface/cube_table.h"
 
 namespace sessile {
@@ -45,8 +46,10 @@ class Marcher {
   template <class F>
   void for_each_map_block(const F& f) const {
     const auto count = static_cast<std::ptrdiff_t>(map_.size());
+    FirstError error;
 #pragma omp parallel for schedule(dynamic, 32)
-    for (std::ptrdiff_t b = 0; b < count; ++b) f(static_cast<std::size_t>(b));
+    for (std::ptrdiff_t b = 0; b < count; ++b) error.guard([&] { f(static_cast<std::size_t>(b)); });
+    error.rethrow();
   }
 
   void find_inside(std::size_t b) {

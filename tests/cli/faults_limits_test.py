@@ -1,0 +1,117 @@
+"""Limits of the system: files, memory, threads, stack; standard streams that are closed. No crash, and good files."""
+import re
+
+from sessile_cli import DONE, FAILED, PROGRAM, subprocess, tiny, unittest
+from trouble_test import Good
+
+NO_LIBRARIES = 127  # the system could not even load the program
+WARNING = dict(time={"end": 2, "fixed_dt": 0.5}, fluid={"viscosity": 100}, output={"frame_interval": 0.5, "stats_interval": 0.5})
+
+
+def larger():
+    """A scene whose arrays fill some blocks of particles, so that threads have work to share; surfaces, checkpoints."""
+    return tiny(spacing=0.04, time={"end": 0.004, "fixed_dt": 0.001},
+                output={"frame_interval": 0.002, "stats_interval": 0.001, "surface": {"formats": ["ply"]},
+                        "checkpoint": {"interval": 0.002}})
+
+
+class Limits(Good):
+    def attempt(self, *arguments, before="", faults=None):
+        """(exit code, standard error) of a run into out, which must not end by a signal."""
+        command = ["bash", "-c", before + '; exec "$@"', "bash", PROGRAM, "run", *arguments, "-o", "out", "--progress", "none"]
+        result = subprocess.run(command, cwd=self.folder, env={**self.environment(), **self.loaded(faults)}, timeout=60,
+                                text=True, stdin=subprocess.DEVNULL, capture_output=True)
+        self.assertIn(result.returncode, (DONE, FAILED, NO_LIBRARIES), f"{before} {faults}: {result.stderr}")
+        self.assertNotIn("terminate called", result.stderr)
+        return result.returncode, result.stderr
+
+    def expect(self, code, err, message):
+        if code == DONE:
+            self.expect_good_results("out", "done")
+        elif code == FAILED:
+            self.assertRegex(err, message)
+            if (self.folder / "out/summary.json").exists():
+                self.expect_good_results("out", "failed")
+
+
+class Files(Limits):
+    def test_few_may_be_open(self):
+        name, codes = self.write(larger()), set()
+        for limit in range(4, 14):
+            code, err = self.attempt(name, before=f"ulimit -n {limit}")
+            self.expect(code, err, r"\Asessile: cannot [^\n]*Too many open files")
+            codes.add(code)
+        self.assertEqual(codes - {NO_LIBRARIES}, {DONE, FAILED})
+
+    def test_what_helps_is_said(self):
+        for limit in range(6, 12):
+            code, err = self.attempt(self.write(larger()), before=f"ulimit -n {limit}")
+            if code == FAILED and "cannot write" in err:
+                self.assertIn("; too few files may be open at once: `ulimit -n 256` is enough for any run\n", err)
+                return
+        self.fail("no limit let it begin and not end")
+
+
+class Memory(Limits):
+    MESSAGE = (r"\Asessile: (out of memory: the program has held [\d.]+ MiB, and the system gives it no more; `sessile check SCENE` "
+               r"says what a scene takes; a larger spacing takes less, and `ulimit -v` shows a limit|cannot start a thread: )")
+
+    def test_every_allocation_may_fail(self):
+        name, after, failed = self.write(larger()), 0, 0
+        while True:
+            code, err = self.attempt(name, "--threads", "2", faults={"CALL": "malloc", "SIZE": 4096, "AFTER": after, "ERROR": 12})
+            self.expect(code, err, self.MESSAGE)
+            if code == DONE:
+                break
+            failed += 1
+            after = after + 1 + after // 3
+        self.assertGreater(failed, 10)
+
+    def test_a_limit(self):
+        name, codes = self.write(larger()), set()
+        for mib in range(120, 1200, 60):
+            code, err = self.attempt(name, "--threads", "2", before=f"ulimit -v {mib * 1024}")
+            if "terminate" not in err and code == FAILED and not re.search(self.MESSAGE, err):
+                self.fail(f"{mib} MiB: {err}")
+            codes.add(code)
+            if code == DONE:
+                break
+        self.assertIn(DONE, codes)
+
+
+class Threads(Limits):
+    def test_fewer_than_asked_for(self):
+        name = self.write(larger())
+        self.call("run", name, "-o", "straight", "--progress", "none")
+        code, err = self.attempt(name, "--threads", "4", faults={"CALL": "pthread_create", "AFTER": 2, "COUNT": 1, "ERROR": 11})
+        self.assertEqual((code, err), (DONE, "warning: 2 threads instead of 4, which cannot be started: Resource temporarily "
+                                             "unavailable\n"))
+        for path in self.names("straight"):
+            if (self.folder / "straight" / path).is_file() and path != "summary.json":
+                self.assertEqual((self.folder / "straight" / path).read_bytes(), (self.folder / "out" / path).read_bytes(), path)
+
+    def test_none_at_all(self):
+        code, err = self.attempt(self.write(larger()), faults={"CALL": "pthread_create", "ERROR": 11})
+        self.assertEqual((code, err), (FAILED, "sessile: cannot start a thread: Resource temporarily unavailable; `--threads 1` takes "
+                                               "fewer, `ulimit -u` and `ulimit -v` show the limits\n"))
+
+    def test_a_small_stack(self):
+        for kib in (64, 128, 256, 1024):
+            code, err = self.attempt(self.write(larger()), "--threads", "2", before=f"ulimit -s {kib}")
+            self.expect(code, err, r"\Asessile: the stack ")
+
+
+class Streams(Limits):
+    def test_closed_ones_do_not_become_files(self):
+        for closed in (">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
+            with self.subTest(closed):
+                for style in ("plain", "json"):
+                    self.call("run", self.write(tiny(**WARNING)), "-o", "out", "--progress", style, before="exec " + closed)
+                    self.expect_good_results("out", "done")
+                    text = (self.folder / "out/stats.csv").read_text()
+                    self.assertNotIn("warning", text)
+                    self.assertEqual(text.count("\n"), 6)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,281 @@
+#include "sessile/measure/health.h"
+
+#include <gtest/gtest.h>
+
+#include <omp.h>
+
+#include <set>
+
+#include "sessile/core/error.h"
+#include "support/same_bits.h"
+#include "support/scenes.h"
+
+namespace sessile {
+namespace {
+
+Solid plate(double width) {
+  Solid solid;
+  solid.label = "plate";
+  solid.shape = Plate{width, width};
+  return solid;
+}
+
+/// Steps until a fault, or `most` steps.
+std::vector<RunFault> faults(Simulation& simulation, const StabilitySettings& settings, int most) {
+  Health health(settings);
+  for (int k = 0; k < most; ++k) {
+    try {
+      simulation.step();
+    } catch (const RunError&) {
+      return health.look(simulation);
+    }
+    if (auto found = health.look(simulation); !found.empty()) return found;
+  }
+  return {};
+}
+
+/// A cube whose particles stand at a third of their distance: pressure flings them apart.
+Scene crammed(double dt) {
+  Scene scene = test::block(5, dt);
+  scene.bodies[0].mass_factor = 27;
+  return scene;
+}
+
+TEST(Health, FindsNumbersThatAreNotFinite) {
+  Scene scene = test::block(3);
+  scene.gravity = {0, 0, -3e38};
+  scene.time.fixed_dt = 1e3;
+  Simulation simulation(scene);
+  const auto found = faults(simulation, {}, 5);
+  ASSERT_EQ(found.size(), 1U);
+  const RunFault& f = found[0];
+  EXPECT_EQ(f.kind, RunFaultKind::not_finite);
+  EXPECT_TRUE(f.counts);
+  EXPECT_EQ(f.count, 27);
+  EXPECT_EQ(f.step, 1);
+  EXPECT_EQ(f.dt, 1e3);
+  EXPECT_GE(f.particle, 0);
+  EXPECT_LT(length(f.position), 0.2) << "where it stood before";
+  EXPECT_NE(f.message.find("27 of 27 particles have no finite position"), std::string::npos) << f.message;
+}
+
+TEST(Health, FindsAParticleThrownOffItsWay) {
+  Simulation simulation(crammed(0.05));
+  const auto found = faults(simulation, {}, 5);
+  ASSERT_FALSE(found.empty());
+  const RunFault& f = found[0];
+  EXPECT_EQ(f.kind, RunFaultKind::speed);
+  EXPECT_GT(simulation.health().throw_length, simulation.units().support_radius);
+  EXPECT_NE(f.message.find("was thrown"), std::string::npos) << f.message;
+  EXPECT_EQ(f.bound, "fixed");
+}
+
+/// Of speed alone nothing follows: a liquid in free flight keeps its way.
+TEST(Health, LetsAFastFreeFlightBe) {
+  Scene scene = test::block(4, 0.01);
+  scene.bodies[0].velocity = {300, 0, 0};  // 30 dx a step
+  Simulation simulation(scene);
+  EXPECT_TRUE(faults(simulation, {}, 50).empty());
+}
+
+TEST(Health, TellsOfAPassageAndCountsItWhereAsked) {
+  Scene scene = test::block(3, 0.01);
+  scene.bodies[0].placement.position = {0, 0, 1};
+  scene.bodies[0].velocity = {0, 0, -100};
+  scene.solids = {plate(2)};
+  StabilitySettings settings;
+  for (const bool counts : {false, true}) {
+    settings.passages = counts;
+    Simulation simulation(scene);
+    const auto found = faults(simulation, settings, 5);
+    ASSERT_FALSE(found.empty());
+    const RunFault& f = found.back();
+    EXPECT_EQ(f.kind, RunFaultKind::passage);
+    EXPECT_EQ(f.counts, counts);
+    EXPECT_EQ(f.count, simulation.totals().lost);
+    EXPECT_LT(f.position.z, 0);
+    EXPECT_NE(f.message.find("passed through the solid \"plate\""), std::string::npos) << f.message;
+  }
+}
+
+TEST(Health, TellsAnEscapeFromAPassage) {
+  Scene scene = test::block(3, 0.01);
+  scene.bodies[0].velocity = {0, 0, -150};
+  scene.domain = Domain{{-1, -1, -1}, {1, 1, 1}, Edge::closed, Edge::closed, Edge::closed};
+  Simulation closed(scene);
+  StabilitySettings settings;
+  settings.escapes = true;
+  settings.speed = false;
+  auto found = faults(closed, settings, 5);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, RunFaultKind::escape);
+  EXPECT_TRUE(found[0].counts);
+  EXPECT_NE(found[0].message.find("left what holds the liquid, \"domain\""), std::string::npos) << found[0].message;
+  EXPECT_EQ(closed.particles().size(), 27U) << "it is told of, not taken out";
+
+  // One closed pair of faces, and open ones beside it: the plates hold as well.
+  scene.domain->x = scene.domain->y = Edge::open;
+  Simulation plates(scene);
+  found = faults(plates, settings, 5);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, RunFaultKind::escape);
+  EXPECT_NE(found[0].message.find("\"domain_z_min\""), std::string::npos) << found[0].message;
+}
+
+TEST(Health, FindsALiquidThatStaysCompressed) {
+  // Twice too much liquid in a closed box: no pressure can part it.
+  Scene scene = test::block(6, 1e-3);
+  scene.bodies[0].mass_factor = 1.5;
+  scene.domain = Domain{{-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, Edge::closed, Edge::closed, Edge::closed};
+  Iisph solver;
+  solver.max_iterations = 5;
+  scene.pressure = solver;
+  StabilitySettings settings;
+  settings.speed = false;
+  settings.density_steps = 40;
+  Simulation simulation(scene);
+  Health health(settings);
+  std::vector<RunFault> found;
+  for (int k = 0; k < 400 && found.empty(); ++k) {
+    simulation.step();
+    for (const RunFault& f : health.look(simulation)) {
+      if (f.kind == RunFaultKind::density) found.push_back(f);
+    }
+  }
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].message.find("40 pressure solves in a row"), std::string::npos) << found[0].message;
+  EXPECT_FALSE(health.doubtful()) << "a new stretch begins";
+}
+
+TEST(Health, IsTheSameForAnyNumberOfThreads) {
+  std::set<std::string> messages;
+  const int before = omp_get_max_threads();
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    Scene scene = crammed(0.02);
+    scene.bodies[0].shape = Box{{1.2, 1.2, 1.2}};  // several blocks of work
+    Simulation simulation(scene);
+    const auto found = faults(simulation, {}, 20);
+    ASSERT_FALSE(found.empty());
+    messages.insert(found[0].message);
+  }
+  omp_set_num_threads(before);
+  EXPECT_EQ(messages.size(), 1U) << *messages.begin() << "\n" << *messages.rbegin();
+}
+
+TEST(Health, StateGoesOnWhereItStood) {
+  Scene scene = test::block(6, 1e-3);
+  scene.bodies[0].mass_factor = 1.5;
+  scene.domain = Domain{{-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, Edge::closed, Edge::closed, Edge::closed};
+  Iisph solver;
+  solver.max_iterations = 5;
+  scene.pressure = solver;
+  StabilitySettings settings;
+  settings.density_steps = 30;
+  Simulation simulation(scene);
+  Health whole(settings), first(settings);
+  for (int k = 0; k < 60; ++k) {
+    simulation.step();
+    const auto expected = whole.look(simulation);
+    if (k % 7 == 0) first = Health(settings, first.state());
+    EXPECT_EQ(first.look(simulation).size(), expected.size()) << k;
+  }
+}
+
+TEST(GoBack, GoesOnAsIfNothingHadHappened) {
+  Scene scene = test::column(6, 4);
+  scene.time.fixed_dt.reset();
+  scene.forces = {SurfaceFeature{}};
+  Simulation undisturbed(scene), disturbed(scene);
+  for (int k = 0; k < 20; ++k) {
+    undisturbed.step();
+    disturbed.step();
+  }
+  const SimulationState good = disturbed.state();
+  Scene wild = scene;
+  wild.gravity = {0, 0, -3e38};
+  wild.time.fixed_dt = 1e3;
+  disturbed.retune(wild);
+  EXPECT_THROW(disturbed.step(), RunError);
+  EXPECT_GT(disturbed.health().not_finite.count, 0);
+  disturbed.go_back_to(good);
+  disturbed.retune(scene);
+  EXPECT_EQ(disturbed.health().not_finite.count, 0);
+  test::expect_same(undisturbed, disturbed, "after going back");
+  for (int k = 0; k < 20; ++k) {
+    undisturbed.step();
+    disturbed.step();
+  }
+  test::expect_same(undisturbed, disturbed, "20 steps later");
+}
+
+/// Every particle that ever was is there or has left, and each only once.
+void expect_balance(const Simulation& simulation, std::int64_t start) {
+  const Totals& totals = simulation.totals();
+  const auto& ids = simulation.particles().id;
+  EXPECT_EQ(start + totals.emitted - totals.out, static_cast<std::int64_t>(ids.size()));
+  const std::set<std::int64_t> distinct(ids.begin(), ids.end());
+  EXPECT_EQ(distinct.size(), ids.size());
+  if (!distinct.empty()) {
+    EXPECT_GE(*distinct.begin(), 0);
+    EXPECT_LT(*distinct.rbegin(), start + totals.emitted);
+  }
+}
+
+TEST(Counts, BalanceInEveryKindOfDomain) {
+  const Edge kinds[] = {Edge::open, Edge::closed, Edge::periodic};
+  bool left = false, came = false;
+  for (const Edge x : kinds) {
+    for (const Edge z : kinds) {
+      Scene scene = test::block(4, 5e-3);
+      scene.gravity = {0, 0, -9.81};
+      scene.bodies[0].velocity = {3, 1, 0};
+      scene.domain = Domain{{-0.8, -0.8, -0.8}, {0.8, 0.8, 0.8}, x, Edge::open, z};
+      Emitter jet;
+      jet.shape = Rectangle{0.3, 0.3};
+      jet.placement.position = {-0.4, 0, 0.5};
+      jet.velocity = {4, 2, -4};
+      jet.interval = 0.04;
+      scene.emitters = {jet};
+      Simulation simulation(scene);
+      const std::int64_t start = static_cast<std::int64_t>(simulation.particles().size()) - simulation.totals().emitted;
+      EXPECT_EQ(start, 64);
+      for (int k = 0; k < 100; ++k) {
+        simulation.step();
+        expect_balance(simulation, start);
+      }
+      left = left || simulation.totals().out > 0;
+      came = came || simulation.totals().emitted > 50;
+    }
+  }
+  EXPECT_TRUE(left);
+  EXPECT_TRUE(came);
+}
+
+TEST(Counts, ThatDoNotBalanceAreRefused) {
+  Simulation simulation(test::block(3));
+  SimulationState state = simulation.state();
+  state.totals.out = 1;
+  try {
+    simulation.go_back_to(state);
+    FAIL();
+  } catch (const SceneError& e) {
+    EXPECT_NE(std::string(e.what()).find("do not add up: 27 of 27 are there and 1 have left"), std::string::npos)
+        << e.what();
+  }
+}
+
+/// NaN is neither below nor above a face: a particle of no place must never fall through the comparison.
+TEST(Counts, KeepAParticleWithoutAPlace) {
+  Scene scene = test::block(3);
+  scene.domain = Domain{{-1, -1, -1}, {1, 1, 1}, Edge::open, Edge::open, Edge::open};
+  scene.gravity = {0, 0, -3e38};
+  scene.time.fixed_dt = 1e3;
+  Simulation simulation(scene);
+  EXPECT_THROW(simulation.step(), RunError);
+  EXPECT_EQ(simulation.particles().size(), 27U);
+  EXPECT_EQ(simulation.totals().out, 0);
+}
+
+}  // namespace
+}  // namespace sessile
