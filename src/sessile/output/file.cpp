@@ -109,13 +109,8 @@ LineFile::LineFile(fs::path path) : path_(std::move(path)), descriptor_(open_ane
   if (descriptor_ < 0) throw failure("write", path_, errno);
 }
 
-<<<<<<< HEAD
-LineFile::LineFile(fs::path path, std::uint64_t keep)
-    : path_(std::move(path)), descriptor_(open_descriptor(path_, O_WRONLY | O_APPEND | O_NOFOLLOW)), size_(keep) {
-=======
 LineFile::LineFile(fs::path path, Keep keep)
-    : path_(std::move(path)), descriptor_(open_descriptor(path_, O_WRONLY | O_APPEND)), size_(keep.bytes) {
->>>>>>> issue6
+    : path_(std::move(path)), descriptor_(open_descriptor(path_, O_WRONLY | O_APPEND | O_NOFOLLOW)), size_(keep.bytes) {
   if (descriptor_ < 0) throw failure("go on with", path_, errno);
   struct stat now {};
   int error = ::fstat(descriptor_, &now) == 0 ? 0 : errno;
