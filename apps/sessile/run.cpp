@@ -67,16 +67,9 @@ int say_end(const SessionResult& result, const RunOptions& options) {
 
 int run(RunOptions options) {
   apply_run_options(options, "");
-<<<<<<< HEAD
   const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides, options.places);
-  const SessionResult result =
-      run_session(resolved, {options.scene, options.folder, progress_style(options.progress), ""});
-  return say_end(result, options);
-=======
-  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
   const SessionOptions session{options.scene, options.folder, progress_style(options.progress), ""};
   return attempt(options.folder, [&] { return say_end(run_session(resolved, session), options); });
->>>>>>> issue6
 }
 
 int resume(RunOptions options, const std::string& folder, std::optional<double> at) {

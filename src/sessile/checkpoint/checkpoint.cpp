@@ -11,12 +11,8 @@
 
 #include "sessile/checkpoint/archive.h"
 #include "sessile/core/error.h"
-<<<<<<< HEAD
-#include "sessile/output/file.h"
-#include "sessile/scene/input_file.h"
-=======
 #include "sessile/output/durable.h"
->>>>>>> issue6
+#include "sessile/scene/input_file.h"
 
 namespace sessile {
 namespace {
