@@ -177,7 +177,7 @@ void ValueReader::resolve_file(const Json::Value& json, const std::string& path,
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension != ".obj" && extension != ".stl" && extension != ".ply") {
     fault(json, path, "expected the name of an .obj, .stl or .ply file, found " + in_quotes(file));
-  } else if (places_ == MeshPlaces::in_its_folder && json["file"].getOffsetStart() >= 0 && is_outside(resolved)) {
+  } else if (places_ == MeshPlaces::in_its_folder && json.getOffsetStart() >= 0 && is_outside(resolved)) {
     fault(json, path,
           in_quotes(file) +
               " lies outside the scene's folder: --allow-outside lets a scene read there, "
