@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "prepare.h"
 #include "progress.h"
+#include "run_options.h"
 #include "say.h"
 #include "sessile/checkpoint/checkpoint.h"
 #include "sessile/core/error.h"
@@ -15,6 +16,7 @@ namespace {
 struct CheckOptions {
   std::string scene;
   std::vector<std::string> overrides;
+  MeshPlaces places = MeshPlaces::in_its_folder;
   bool json = false;
 };
 
@@ -70,7 +72,7 @@ void check(const CheckOptions& options) {
     check_checkpoint(options);
     return;
   }
-  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
+  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides, options.places);
   const Simulation simulation = set_up(resolved, options.scene);
   if (options.json) {
     say(stdout, to_json(resolved.scene) + "\n");
@@ -90,6 +92,7 @@ void add_check(CLI::App& program, int&) {
       ->type_name("PATH=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_allow_outside(*command, options->places);
   command->add_flag("--json", options->json, "print the resolved scene as JSON, itself a scene file");
   command->callback([options] { check(*options); });
 }

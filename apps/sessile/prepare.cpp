@@ -16,8 +16,9 @@ std::string located(const ResolvedScene& resolved, const std::string& file, cons
 
 }  // namespace
 
-ResolvedScene read_runnable_scene(const std::string& file, const std::vector<std::string>& overrides) {
-  return read_resolved_scene(file, overrides, check_output);
+ResolvedScene read_runnable_scene(const std::string& file, const std::vector<std::string>& overrides,
+                                  MeshPlaces places) {
+  return read_resolved_scene(file, overrides, check_output, places);
 }
 
 Simulation set_up(const ResolvedScene& resolved, const std::string& file) {

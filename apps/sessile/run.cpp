@@ -70,7 +70,7 @@ int say_end(const SessionResult& result, const RunOptions& options) {
 
 int run(RunOptions options) {
   apply_run_options(options, "");
-  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides);
+  const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides, options.places);
   const SessionOptions session{options.scene, options.folder, progress_style(options.progress), ""};
   return attempt(options.folder, [&] { return say_end(run_session(resolved, session), options); });
 }

@@ -21,6 +21,11 @@ std::string finite_and_positive_in(std::string_view unit, const std::string& wor
   return value > 0 ? "" : fmt::format("must be above 0 {}, found {}", unit, word);
 }
 
+void add_allow_outside(CLI::App& command, MeshPlaces& places) {
+  command.add_flag_callback(
+      "--allow-outside", [&places] { places = MeshPlaces::anywhere; }, "let the scene name meshes outside its folder");
+}
+
 void add_run_options(CLI::App& command, RunOptions& options, const std::string& folder_help) {
   command.add_option("scene", options.scene, "scene file")->required()->type_name("SCENE");
   command.add_option("-o,--output", options.folder, folder_help)->type_name("DIR");
@@ -28,6 +33,7 @@ void add_run_options(CLI::App& command, RunOptions& options, const std::string& 
       ->type_name("PATH=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_allow_outside(command, options.places);
   command.add_option("--until", options.until, "end at this simulated time, in place of the scene's time.end")
       ->type_name("SECONDS")
       ->check(finite_and_positive, "");

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sessile/scene/read.h"
+
 namespace sessile::app {
 
 /// What every command that runs scenes can be told.
@@ -13,12 +15,16 @@ struct RunOptions {
   std::string scene;
   std::string folder;
   std::vector<std::string> overrides;  ///< `path=value`; --until adds its own
+  MeshPlaces places = MeshPlaces::in_its_folder;
   std::optional<double> until;
   int threads = 0;
   std::string progress = "auto";
 };
 
-/// Adds SCENE, --output, --set, --until, --threads and --progress. `folder_help` says what -o is.
+/// Adds --allow-outside.
+void add_allow_outside(CLI::App& command, MeshPlaces& places);
+
+/// Adds SCENE, --output, --set, --allow-outside, --until, --threads and --progress. `folder_help` says what -o is.
 void add_run_options(CLI::App& command, RunOptions& options, const std::string& folder_help);
 
 /// Takes over the threads and the end that were asked for, and the folder of a name when none was given.

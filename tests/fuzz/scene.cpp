@@ -12,7 +12,8 @@
 namespace sessile::fuzz {
 
 void read_scene_json(std::string_view bytes) {
-  const ResolvedScene resolved = read_resolved_text(std::string(bytes), "scene.json");
+  const ResolvedScene resolved =
+      read_resolved_text(std::string(bytes), "scene.json", {}, {}, MeshPlaces::in_its_folder);
   must(validate(resolved.scene).empty(), "a scene was read that is not valid");
   must(!describe(resolved).empty(), "nothing to describe");
   const std::string json = to_json(resolved.scene);

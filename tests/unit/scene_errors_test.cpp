@@ -22,8 +22,8 @@ TEST_F(SceneErrors, Files) {
   std::filesystem::create_directory(folder_ / "d.json");
   EXPECT_EQ(faults_of(folder_ / "d.json"), (Lines{"d.json: cannot be read: it is a folder"}));
   EXPECT_EQ(faults(std::string("{\0}", 3)), (Lines{"s.json: cannot be read: it is no text file"}));
-  EXPECT_EQ(faults(std::string((std::size_t{64} << 20) + 1, ' ')),
-            (Lines{"s.json: cannot be read: it is larger than 64 MiB"}));
+  EXPECT_EQ(faults(std::string((std::size_t{16} << 20) + 1, ' ')),
+            (Lines{"s.json: cannot be read: it is larger than 16 MiB"}));
 }
 
 TEST_F(SceneErrors, Syntax) {

@@ -66,7 +66,7 @@ void write_report(Comparison& comparison) {
 int compare(CompareOptions options) {
   refuse_overrides_of_methods(options.run.overrides);
   apply_run_options(options.run, "_compared");
-  const ResolvedScene scene = read_runnable_scene(options.run.scene, options.run.overrides);
+  const ResolvedScene scene = read_runnable_scene(options.run.scene, options.run.overrides, options.run.places);
   const std::vector<Contestant> contestants = read_contestants(options.methods, options.run.scene, scene);
   const TrialSettings settings = settings_of(options, scene.scene);
   refuse_if_in_use(settings.folder);

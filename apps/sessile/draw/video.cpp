@@ -42,7 +42,8 @@ int start(const std::vector<std::string>& arguments, int input, const std::strin
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, words.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, words.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW,
+                                   0600);
   posix_spawnattr_t attributes{};
   posix_spawnattr_init(&attributes);
   // A group of its own: Ctrl-C is for this program, which then ends the video in order.
@@ -90,6 +91,8 @@ std::filesystem::path beside(const std::filesystem::path& file, const char* endi
 
 Video::Video(const std::filesystem::path& file, int width, int height, double frames_per_second)
     : file_(file), part_(beside(file, "part")), width_(width), height_(height), words_(beside(file, "log").string()) {
+  std::error_code none;
+  for (const auto& old : {part_, std::filesystem::path(words_)}) std::filesystem::remove(old, none);  // a link, maybe
   {
     const std::ofstream made(part_);
     if (!made) throw FileError(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));

@@ -53,12 +53,13 @@ void write_vdb(const std::filesystem::path& file, const SurfaceMesh& mesh, doubl
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(omp_get_max_threads()));
   const auto part = part_name(file);
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);  // OpenVDB would write through a link
   try {
     openvdb::io::File out(part.string());
     out.write({level_set(mesh, voxel)});
     out.close();
   } catch (const openvdb::Exception& e) {
-    std::error_code ignored;
     std::filesystem::remove(part, ignored);
     throw FileError(fmt::format("cannot write {}: {}", file.string(), e.what()));
   }

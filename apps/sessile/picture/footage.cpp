@@ -80,7 +80,7 @@ ResolvedScene scene_of(const PictureOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (!options.times.empty())
     overrides.push_back(fmt::format("time.end={:.17g}", std::max(options.times.back(), 1e-9)));
-  return read_runnable_scene(options.source, overrides);
+  return read_runnable_scene(options.source, overrides, options.places);
 }
 
 draw::Moment state_of(const Simulation& simulation, const PictureOptions& options, const draw::Stage& stage) {

@@ -158,6 +158,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
       ->type_name("PATH=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_allow_outside(command, options.places);
   command.add_option("--threads", options.threads, "threads to use (default: all)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));

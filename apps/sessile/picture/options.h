@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "draw/moment.h"
+#include "sessile/scene/read.h"
 
 namespace sessile::app {
 
@@ -26,6 +27,7 @@ struct PictureOptions {
   int fineness = 2;
   double frames_per_second = 25;
   std::vector<std::string> overrides;  ///< of a scene
+  MeshPlaces places = MeshPlaces::in_its_folder;
   int threads = 0;
   std::string progress = "auto";
 };

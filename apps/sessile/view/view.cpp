@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "prepare.h"
+#include "run_options.h"
 #include "sessile/core/error.h"
 #include "sessile/results/results.h"
 #include "view/keys.h"
@@ -25,6 +26,7 @@ struct ViewOptions {
   int threads = 0;
   std::int64_t frames = 0;
   bool paused = false;
+  MeshPlaces places = MeshPlaces::in_its_folder;
 };
 
 /// Width and height of "1280x800"; what is wrong otherwise, for CLI11.
@@ -58,7 +60,7 @@ int view(const ViewOptions& options) {
     }
     source = std::make_unique<viewer::ResultSource>(open_results(options.source));
   } else {
-    const ResolvedScene resolved = read_runnable_scene(options.source, options.overrides);
+    const ResolvedScene resolved = read_runnable_scene(options.source, options.overrides, options.places);
     source = std::make_unique<viewer::LiveSource>(set_up(resolved, options.source), options.threads);
   }
   viewer::Window window(title, width, height);
@@ -83,6 +85,7 @@ void add_view(CLI::App& program, int& exit_code) {
       ->type_name("PATH=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_allow_outside(*command, options->places);
   command->add_option("--threads", options->threads, "threads for the steps (default: all)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));

@@ -6,13 +6,13 @@
 #include <xxhash.h>
 
 #include <array>
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 
 #include "sessile/checkpoint/archive.h"
 #include "sessile/core/error.h"
 #include "sessile/output/durable.h"
+#include "sessile/scene/input_file.h"
 
 namespace sessile {
 namespace {
@@ -107,15 +107,11 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw FileError(fmt::format("cannot read {}: {}", file.string(), error ? error.message() : "is not a file"));
-  }
-  const auto size = std::filesystem::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(error ? 0 : size, '\0');
-  if (error || !stream || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    throw FileError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
+  std::string bytes;
+  try {
+    bytes = read_input(file, physical_memory());
+  } catch (const FileError& fault) {
+    throw FileError(fmt::format("cannot read {}: {}", file.string(), fault.what()));
   }
   return decode_checkpoint(bytes, file.string());
 }

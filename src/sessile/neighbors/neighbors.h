@@ -76,7 +76,8 @@ class NeighborList {
   std::size_t size() const { return size_; }
   int count(std::size_t i) const { return count_[i]; }
   Neighbors operator[](std::size_t i) const {
-    return {groups_[i / lanes_].first + i % lanes_, static_cast<std::size_t>(count_[i]), lanes_};
+    const auto* const first = groups_[i / lanes_].first;  // null where nothing at all has neighbours
+    return {first == nullptr ? first : first + i % lanes_, static_cast<std::size_t>(count_[i]), lanes_};
   }
 
   /// Finds, for every one of `points`, those of `others` with |x_i - x_j| < radius, which is at most a cell of their

@@ -30,8 +30,15 @@ int open_descriptor(const fs::path& path, int flags) {
   return descriptor;
 }
 
-int open_for_writing(const fs::path& path, int flags) {
-  return open_descriptor(path, O_WRONLY | O_CREAT | O_TRUNC | flags);
+/// Opens a file that is new: what stands there, a link of either kind too, gives way and is not written into. Devices
+/// and pipes are opened as they are. Returns -1 with errno.
+int open_anew(const fs::path& path, int flags) {
+  struct stat there {};
+  const bool known = ::lstat(path.c_str(), &there) == 0;
+  const bool gives_way = known && (S_ISLNK(there.st_mode) || S_ISREG(there.st_mode));
+  if (gives_way && ::unlink(path.c_str()) != 0) return -1;
+  const int fresh = known && !gives_way ? O_TRUNC : O_EXCL;
+  return open_descriptor(path, O_WRONLY | O_CREAT | O_NOFOLLOW | fresh | flags);
 }
 
 /// Writes all bytes. Returns 0 or the error.
@@ -64,7 +71,7 @@ fs::path part_name(const fs::path& path) {
 
 void finish_part(const fs::path& path) {
   const fs::path temporary = part_name(path);
-  const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   int error = descriptor < 0 ? errno : sync(descriptor);
   if (descriptor >= 0) ::close(descriptor);
   if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
@@ -75,7 +82,7 @@ void finish_part(const fs::path& path) {
 
 void write_whole(const fs::path& path, std::string_view bytes) {
   const fs::path temporary = part_name(path);
-  const int descriptor = open_for_writing(temporary, 0);
+  const int descriptor = open_anew(temporary, 0);
   if (descriptor < 0) throw failure("write", path, errno);
   int error = write_all(descriptor, bytes);
   if (error == 0) error = sync(descriptor);
@@ -98,12 +105,12 @@ void create_output_folder(const fs::path& path) {
   if (::access(path.c_str(), W_OK | X_OK) != 0) throw failure("write into the folder", path, errno);
 }
 
-LineFile::LineFile(fs::path path) : path_(std::move(path)), descriptor_(open_for_writing(path_, O_APPEND)) {
+LineFile::LineFile(fs::path path) : path_(std::move(path)), descriptor_(open_anew(path_, O_APPEND)) {
   if (descriptor_ < 0) throw failure("write", path_, errno);
 }
 
 LineFile::LineFile(fs::path path, Keep keep)
-    : path_(std::move(path)), descriptor_(open_descriptor(path_, O_WRONLY | O_APPEND)), size_(keep.bytes) {
+    : path_(std::move(path)), descriptor_(open_descriptor(path_, O_WRONLY | O_APPEND | O_NOFOLLOW)), size_(keep.bytes) {
   if (descriptor_ < 0) throw failure("go on with", path_, errno);
   struct stat now {};
   int error = ::fstat(descriptor_, &now) == 0 ? 0 : errno;

@@ -7,6 +7,7 @@
 namespace sessile {
 
 /// Writes a file whole or not at all: under a temporary name in the same folder, then synced and renamed over `path`.
+/// A link of either name is replaced, never followed.
 /// Throws FileError with the path and the system's reason; the old file, if any, then stays and nothing else is left.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 
@@ -30,7 +31,7 @@ struct Keep {
 /// A file that grows by whole lines. What has been appended stays good whenever the program ends.
 class LineFile {
  public:
-  /// Opens `path` anew and empty. Throws FileError.
+  /// Makes `path` anew and empty; a link of that name is replaced. Throws FileError.
   explicit LineFile(std::filesystem::path path);
 
   /// Opens `path` as it is and takes back what follows the part that stays.

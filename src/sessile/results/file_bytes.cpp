@@ -1,33 +1,29 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <system_error>
-
 #include "sessile/core/error.h"
 #include "sessile/results/frame_files.h"
+#include "sessile/scene/input_file.h"
 
 namespace sessile {
+namespace {
 
-std::string file_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw FileError(fmt::format("cannot read {}: {}", file.string(), error.message()));
-  return first_bytes(file, size);
+template <class Read>
+std::string read_named(const std::filesystem::path& file, Read&& read) {
+  try {
+    return read();
+  } catch (const FileError& fault) {
+    throw FileError(fmt::format("cannot read {}: {}", file.string(), fault.what()));
+  }
+}
+
+}  // namespace
+
+std::string file_bytes(const std::filesystem::path& file, std::uintmax_t most) {
+  return read_named(file, [&] { return read_input(file, most); });
 }
 
 std::string first_bytes(const std::filesystem::path& file, std::size_t most) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw FileError(fmt::format("cannot read {}: {}", file.string(), error.message()));
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(std::min<std::uintmax_t>(most, size), '\0');
-  if (!stream || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    throw FileError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
-  }
-  return bytes;
+  return read_named(file, [&] { return read_beginning(file, most); });
 }
 
 }  // namespace sessile

@@ -11,8 +11,8 @@
 /// The files of frames, by their bytes. What is wrong with one is thrown as FileError without its name.
 namespace sessile {
 
-/// All bytes of a file. Throws FileError with its path.
-std::string file_bytes(const std::filesystem::path& file);
+/// All bytes of a file of at most `most` bytes. Throws FileError with its path.
+std::string file_bytes(const std::filesystem::path& file, std::uintmax_t most);
 
 /// The first bytes of a file, `most` of them or all that there are. Throws FileError with its path.
 std::string first_bytes(const std::filesystem::path& file, std::size_t most);
@@ -27,8 +27,9 @@ struct FrameMoment {
 std::optional<FrameMoment> vtp_moment(std::string_view beginning);
 std::optional<FrameMoment> ply_moment(std::string_view beginning);
 
-/// The particles in a .vtp file that encode_vtp() wrote; the bytes are used up.
-Snapshot parse_vtp_frame(std::string bytes);
+/// The particles in a .vtp file that encode_vtp() wrote; the bytes are used up. `most`: bytes that its arrays may
+/// unpack to; 0 for half of the machine's memory.
+Snapshot parse_vtp_frame(std::string bytes, std::uint64_t most = 0);
 
 /// The particles in a .ply file that encode_ply() wrote. Units come from the columns' names: the format has none.
 Snapshot parse_ply_frame(std::string_view bytes);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -20,6 +22,8 @@ static_assert(std::endian::native == std::endian::little, "the files say LittleE
 constexpr std::uint64_t most_inflation = 1040;
 constexpr std::uint64_t word_bytes = sizeof(std::uint64_t);
 
+constexpr std::size_t most_xml = 1 << 20;  // bytes; each may become a hundred in a tree of XML
+
 FileError not_ours() { return FileError("it is a VTK file, but no frame that `sessile run` wrote"); }
 FileError damaged() { return FileError("its data is cut short or changed"); }
 
@@ -35,7 +39,8 @@ std::optional<T> number(std::string_view text) {
 /// unpacked twice.
 class Appended {
  public:
-  explicit Appended(std::string_view text) : text_(text) {}
+  /// `most`: bytes that all arrays may unpack to.
+  Appended(std::string_view text, std::uint64_t most) : text_(text), left_(most) {}
 
   /// The next array, which must hold `size` bytes.
   std::string next(std::uint64_t offset, std::uint64_t size) {
@@ -49,6 +54,8 @@ class Appended {
       packed_bytes += head[i];
     }
     if (size / most_inflation > packed_bytes) throw damaged();
+    if (size > left_) throw FileError("it unpacks to more than there is memory for");
+    left_ -= size;
     return inflated(base64(packed_bytes, true), head, size);
   }
 
@@ -71,13 +78,15 @@ class Appended {
     return values;
   }
 
+  /// Grows block by block, so that sizes that lie are found out before memory is taken for them.
   static std::string inflated(const std::string& packed, const std::vector<std::uint64_t>& head, std::uint64_t size) {
-    std::string bytes(size, '\0');
+    std::string bytes;
     std::uint64_t from = 0, to = 0;
     for (std::size_t block = 3; block < head.size(); ++block) {
       const bool part = block + 1 == head.size() && head[2] != 0;
       const std::uint64_t expected = part ? head[2] : head[1];
-      if (expected > size - to) throw damaged();
+      if (expected > size - to || expected / most_inflation > head[block]) throw damaged();
+      bytes.resize(to + expected);
       uLongf made = expected;
       const auto* const source = reinterpret_cast<const Bytef*>(packed.data() + from);
       if (uncompress(reinterpret_cast<Bytef*>(bytes.data() + to), &made, source, head[block]) != Z_OK ||
@@ -93,6 +102,7 @@ class Appended {
 
   std::string_view text_;
   std::size_t at_ = 0;
+  std::uint64_t left_;
 };
 
 template <class T>
@@ -120,6 +130,18 @@ Column read_array(const pugi::xml_node& array, std::uint64_t points, Appended& a
     column.values = values_in<float>(bytes);
   }
   return column;
+}
+
+/// Refuses what has more XML than frames have around their data.
+void refuse_much_xml(std::string_view bytes) {
+  const auto begin = bytes.find("<AppendedData");
+  const std::size_t before = std::min(begin, bytes.size());
+  const auto end = before < bytes.size() ? bytes.find('<', before + 1) : std::string_view::npos;
+  if (before > most_xml || (end != std::string_view::npos && bytes.size() - end > most_xml)) throw not_ours();
+}
+
+std::uint64_t half_of_memory() {
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / 2;
 }
 
 FrameMoment moment_of(const pugi::xml_node& fields) {
@@ -150,8 +172,10 @@ std::optional<FrameMoment> vtp_moment(std::string_view beginning) {
   return time && step && std::isfinite(*time) ? std::optional(FrameMoment{*time, *step}) : std::nullopt;
 }
 
-Snapshot parse_vtp_frame(std::string bytes) {
+Snapshot parse_vtp_frame(std::string bytes, std::uint64_t most) {
   const std::size_t size = bytes.size();
+  if (!bytes.starts_with("<?xml") && !bytes.starts_with("<VTKFile")) throw FileError("it is no VTK file");
+  refuse_much_xml(bytes);
   pugi::xml_document document;
   const auto parsed = document.load_buffer_inplace(bytes.data(), size, pugi::parse_escapes, pugi::encoding_utf8);
   const pugi::xml_node file = document.child("VTKFile");
@@ -172,7 +196,7 @@ Snapshot parse_vtp_frame(std::string bytes) {
   std::string_view text = data.child_value();
   while (!text.empty() && (text.front() == '\n' || text.front() == ' ')) text.remove_prefix(1);
   if (!text.starts_with('_')) throw not_ours();
-  Appended appended(text.substr(1));
+  Appended appended(text.substr(1), most > 0 ? most : half_of_memory());
   const FrameMoment moment = moment_of(file.child("PolyData").child("FieldData"));
   Snapshot snapshot{moment.time, moment.step, {}, {}};
   for (const pugi::xml_node array : piece.child("PointData").children("DataArray")) {

@@ -23,8 +23,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 2> formats{"vtp", "ply"};  // what can be read, the preferred first
-constexpr std::size_t head_bytes = 4096;                          // enough for the time, which stands in front
+constexpr std::array<std::string_view, 2> formats{"vtp", "ply"};          // what can be read, the preferred first
+constexpr std::uintmax_t largest_frame = std::uintmax_t{1} << 40;         // a bound on what grows while it is read
+constexpr std::uintmax_t largest_collection = std::uintmax_t{128} << 20;  // a million frames take 70 MiB
+constexpr std::uintmax_t largest_summary = std::uintmax_t{16} << 20;
+constexpr std::size_t head_bytes = 4096;  // enough for the time, which stands in front
 
 /// The number in frame_000012.vtp; nothing for other names.
 std::optional<std::int64_t> number_of(const std::string& name, std::string_view format) {
@@ -55,7 +58,12 @@ std::vector<ResultFrame> frames_in(const fs::path& folder, std::string_view form
 std::map<std::string, double, std::less<>> collected_times(const fs::path& folder) {
   std::map<std::string, double, std::less<>> times;
   pugi::xml_document document;
-  if (!document.load_file((folder / "frames.pvd").c_str())) return times;
+  try {
+    const std::string bytes = file_bytes(folder / "frames.pvd", largest_collection);
+    if (!document.load_buffer(bytes.data(), bytes.size())) return times;
+  } catch (const FileError&) {
+    return times;
+  }
   for (const pugi::xml_node entry : document.child("VTKFile").child("Collection").children("DataSet")) {
     const std::string_view text = entry.attribute("timestep").value();
     double time = 0;
@@ -76,7 +84,7 @@ double time_of(const fs::path& file) {
 
 /// The scene as the text of a file of its own, out of the summary of an older run.
 std::string scene_in_summary(const fs::path& file) {
-  const std::string text = file_bytes(file);
+  const std::string text = file_bytes(file, largest_summary);
   Json::Value summary;
   std::string why;
   const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
@@ -93,17 +101,24 @@ std::string scene_in_summary(const fs::path& file) {
 
 }  // namespace
 
-Scene read_result_scene(const fs::path& folder) {
+ResolvedScene read_resolved_result(const fs::path& folder, std::span<const std::string> overrides) {
   std::error_code ignored;
   const fs::path own = folder / "scene.json", summary = folder / "summary.json";
-  try {
-    if (fs::exists(own, ignored)) return read_scene(own);
-    if (fs::exists(summary, ignored)) return read_resolved_text(scene_in_summary(summary), summary.string()).scene;
-  } catch (const SceneError& e) {
-    throw FileError(fmt::format("the scene of {} cannot be used: {}", folder.string(), e.what()));
+  // A run writes down where it found its meshes.
+  if (fs::exists(own, ignored)) return read_resolved_scene(own, overrides, {}, MeshPlaces::anywhere);
+  if (fs::exists(summary, ignored)) {
+    return read_resolved_text(scene_in_summary(summary), summary.string(), overrides);
   }
   throw FileError(
       fmt::format("{} holds neither scene.json nor summary.json: is it a folder of `sessile run`?", folder.string()));
+}
+
+Scene read_result_scene(const fs::path& folder) {
+  try {
+    return read_resolved_result(folder).scene;
+  } catch (const SceneError& e) {
+    throw FileError(fmt::format("the scene of {} cannot be used: {}", folder.string(), e.what()));
+  }
 }
 
 Results open_results(const fs::path& folder) {
@@ -129,7 +144,7 @@ Results open_results(const fs::path& folder) {
 }
 
 Snapshot read_frame(const fs::path& file) {
-  std::string bytes = file_bytes(file);
+  std::string bytes = file_bytes(file, largest_frame);
   try {
     if (file.extension() == ".ply") return parse_ply_frame(bytes);
     if (file.extension() == ".vtp") return parse_vtp_frame(std::move(bytes));

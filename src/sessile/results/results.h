@@ -3,9 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "sessile/output/snapshot.h"
+#include "sessile/scene/read.h"
 #include "sessile/scene/scene.h"
 
 namespace sessile {
@@ -26,6 +29,10 @@ struct Results {
 
 /// Looks into a folder of results. Throws FileError when it is none, holds no frames or no scene.
 Results open_results(const std::filesystem::path& folder);
+
+/// The scene of a folder with overrides put over it, and what its file says of it.
+/// Throws SceneError as read_resolved_scene(), FileError when there is none.
+ResolvedScene read_resolved_result(const std::filesystem::path& folder, std::span<const std::string> overrides = {});
 
 /// The scene alone, of a folder that may hold no frames. Throws FileError when there is none.
 Scene read_result_scene(const std::filesystem::path& folder);

@@ -10,6 +10,10 @@
 
 namespace sessile {
 
+namespace {
+constexpr std::size_t most_lines = 100;  // that people would read
+}
+
 std::string around(const std::string& path) {
   const auto cut = path.find_last_of(".[");
   return cut == std::string::npos ? "" : path.substr(0, cut);
@@ -67,7 +71,8 @@ void FaultLines::throw_any() {
   if (lines_.empty()) return;
   std::stable_sort(lines_.begin(), lines_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> messages;
-  for (auto& line : lines_) messages.push_back(std::move(line.second));
+  for (std::size_t i = 0; i < std::min(lines_.size(), most_lines); ++i) messages.push_back(std::move(lines_[i].second));
+  if (lines_.size() > most_lines) messages.push_back(fmt::format("{}: more than {} faults", file_, most_lines));
   throw SceneError(std::move(messages));
 }
 

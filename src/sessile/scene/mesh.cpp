@@ -4,17 +4,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
-#include <fstream>
 #include <numeric>
 #include <string>
-#include <system_error>
 #include <tuple>
 
 #include "sessile/core/error.h"
+#include "sessile/scene/input_file.h"
 #include "sessile/scene/mesh_files.h"
 
 namespace sessile {
@@ -26,14 +23,11 @@ constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
 
 std::string bytes_of(const std::string& file) {
   const auto cannot = [&](const std::string& why) { return FileError(file + ": cannot be read: " + why); };
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw cannot(error.message());
-  if (size > largest_file) throw cannot(fmt::format("it is larger than {} MiB", largest_file >> 20));
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(size, '\0');
-  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) throw cannot(std::strerror(errno));
-  return bytes;
+  try {
+    return read_input(file, largest_file);
+  } catch (const FileError& fault) {
+    throw cannot(fault.what());
+  }
 }
 
 TriangleSoup parse(const std::string& file) {

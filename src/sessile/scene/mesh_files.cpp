@@ -39,6 +39,7 @@ std::int64_t obj_index(std::string_view word, std::size_t corners, std::size_t l
 }
 
 TriangleSoup parse_binary_stl(std::string_view bytes, std::size_t count) {
+  check_parts(3 * count, "corners");
   TriangleSoup soup;
   soup.corners.reserve(3 * count);
   for (std::size_t t = 0; t < count; ++t) {
@@ -46,14 +47,19 @@ TriangleSoup parse_binary_stl(std::string_view bytes, std::size_t count) {
     std::memcpy(numbers.data(), bytes.data() + stl_head + t * stl_record, sizeof numbers);
     const auto first = static_cast<std::int64_t>(soup.corners.size());
     for (std::size_t k = 3; k < 12; k += 3) soup.corners.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
-    add_polygon(soup, {first, first + 1, first + 2});
+    add_polygon(soup, std::array{first, first + 1, first + 2});
   }
   return soup;
 }
 
 }  // namespace
 
-void add_polygon(TriangleSoup& soup, const std::vector<std::int64_t>& polygon) {
+void check_parts(std::size_t count, std::string_view what) {
+  if (count > most_mesh_parts) throw FileError(fmt::format("it has more than {} {}", most_mesh_parts, what));
+}
+
+void add_polygon(TriangleSoup& soup, std::span<const std::int64_t> polygon) {
+  check_parts(soup.triangles.size() + polygon.size(), "triangles");
   for (const auto index : polygon) {
     if (index < 0 || index >= static_cast<std::int64_t>(soup.corners.size())) {
       throw FileError(fmt::format("a face names corner {} of {}", index + 1, soup.corners.size()));
@@ -65,7 +71,7 @@ void add_polygon(TriangleSoup& soup, const std::vector<std::int64_t>& polygon) {
 
 TriangleSoup parse_obj(std::string_view text) {
   TriangleSoup soup;
-  std::vector<std::vector<std::int64_t>> faces;  // a face may stand before its corners
+  Polygons faces;  // a face may stand before its corners
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     MeshWords words(line);
     const auto kind = words.next();
@@ -75,14 +81,16 @@ TriangleSoup parse_obj(std::string_view text) {
         throw FileError(fmt::format("line {}: expected three numbers", number));
       }
       soup.corners.push_back(p);
+      check_parts(soup.corners.size(), "corners");
     } else if (kind == "f") {
-      auto& face = faces.emplace_back();
+      faces.begin();
+      check_parts(faces.size(), "faces");
       for (auto word = words.next(); !word.empty() && word.front() != '#'; word = words.next()) {
-        face.push_back(obj_index(word, soup.corners.size(), number));
+        faces.corner(obj_index(word, soup.corners.size(), number));
       }
     }
   });
-  for (const auto& face : faces) add_polygon(soup, face);
+  for (std::size_t i = 0; i < faces.size(); ++i) add_polygon(soup, faces[i]);
   return soup;
 }
 
@@ -106,8 +114,9 @@ TriangleSoup parse_stl(std::string_view bytes) {
       throw FileError(fmt::format("line {}: expected three numbers", number));
     }
     soup.corners.push_back(p);
+    check_parts(soup.corners.size(), "corners");
     const auto count = static_cast<std::int64_t>(soup.corners.size());
-    if (count % 3 == 0) add_polygon(soup, {count - 3, count - 2, count - 1});
+    if (count % 3 == 0) add_polygon(soup, std::array{count - 3, count - 2, count - 1});
   });
   if (!ended) throw FileError("its end is missing: no endsolid");
   return soup;

@@ -158,7 +158,7 @@ TriangleSoup parse_ply(std::string_view bytes) {
   const Header header = parse_header(bytes);
   Body body(header.body, header.format);
   TriangleSoup soup;
-  std::vector<std::vector<std::int64_t>> faces;
+  Polygons faces;
   for (const auto& element : header.elements) {
     if (element.properties.empty()) continue;
     // Each entry takes a byte at least: a count that lies runs into the end of the body.
@@ -167,10 +167,14 @@ TriangleSoup parse_ply(std::string_view bytes) {
       for (const auto& property : element.properties) {
         if (property.list) {
           const double count = body.next(property.count);
-          std::vector<std::int64_t> list;
-          for (double k = 0; k < count; ++k) list.push_back(whole(body.next(property.type)));
           const bool indices = property.name == "vertex_indices" || property.name == "vertex_index";
-          if (element.name == "face" && indices) faces.push_back(std::move(list));
+          const bool polygon = element.name == "face" && indices;
+          if (polygon) faces.begin();
+          check_parts(faces.size(), "faces");
+          for (double k = 0; k < count; ++k) {
+            const double index = body.next(property.type);
+            if (polygon) faces.corner(whole(index));
+          }
           continue;
         }
         const double value = body.next(property.type);
@@ -179,9 +183,10 @@ TriangleSoup parse_ply(std::string_view bytes) {
         if (property.name == "z") corner.z = value;
       }
       if (element.name == "vertex") soup.corners.push_back(corner);
+      check_parts(soup.corners.size(), "corners");
     }
   }
-  for (const auto& face : faces) add_polygon(soup, face);
+  for (std::size_t i = 0; i < faces.size(); ++i) add_polygon(soup, faces[i]);
   return soup;
 }
 

@@ -109,7 +109,7 @@ std::vector<Vec3d> sample_mesh(const TriangleMesh& mesh, double spacing, int lay
   check_count(estimate_mesh(mesh, spacing) * layers, who);
   const Vec3d size = mesh.upper() - mesh.lower();
   if (!(std::max({size.x, size.y, size.z}) / spacing < widest)) {
-    throw SceneError(fmt::format("{}: is more than {} sample distances wide", who, widest));
+    throw SceneError(fmt::format("{}: is more than {:g} sample distances wide", who, widest));
   }
   SampleSet samples(mesh.lower(), least_distance * spacing);
   for (const auto& vertex : mesh.vertices) samples.add_if_free(vertex);

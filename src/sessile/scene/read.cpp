@@ -32,7 +32,7 @@ void apply_overrides(std::span<const Override> overrides, Json::Value& root, Fau
 }
 
 ResolvedScene resolve(SceneText text, const std::filesystem::path& file, std::span<const std::string> overrides,
-                      const FurtherCheck& further) {
+                      const FurtherCheck& further, MeshPlaces places) {
   Json::Value root = parsed_or_thrown(text, file);
 
   const std::vector<Override> split = split_overrides(overrides);
@@ -41,7 +41,7 @@ ResolvedScene resolve(SceneText text, const std::filesystem::path& file, std::sp
   apply_overrides(split, root, lines);
 
   ResolvedScene resolved;
-  ValueReader reader(text, std::filesystem::absolute(file).parent_path());
+  ValueReader reader(text, std::filesystem::absolute(file).parent_path(), places);
   reader.read(root, "", any_number, "", resolved.scene);
   for (const auto& found : reader.faults()) lines.add(found.offset, found.path, found.message);
   resolved.given = reader.given();
@@ -72,13 +72,13 @@ std::string ResolvedScene::locate(const Fault& fault) const {
 }
 
 ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
-                                  const FurtherCheck& further) {
-  return resolve(SceneText::from_file(file), file, overrides, further);
+                                  const FurtherCheck& further, MeshPlaces places) {
+  return resolve(SceneText::from_file(file), file, overrides, further, places);
 }
 
 ResolvedScene read_resolved_text(std::string text, const std::string& name, std::span<const std::string> overrides,
-                                 const FurtherCheck& further) {
-  return resolve(SceneText(std::move(text)), name, overrides, further);
+                                 const FurtherCheck& further, MeshPlaces places) {
+  return resolve(SceneText(std::move(text)), name, overrides, further, places);
 }
 
 SurfaceSettings with_overrides(const SurfaceSettings& settings, std::span<const std::string> overrides) {

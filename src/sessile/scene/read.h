@@ -25,18 +25,23 @@ struct ResolvedScene {
   std::string locate(const Fault& fault) const;
 };
 
+/// Where the meshes that a scene names may lie. One that an override names may lie anywhere.
+enum class MeshPlaces { in_its_folder, anywhere };
+
 /// Judges what the parts of a scene make together, beside validate(); such as check_output().
 using FurtherCheck = std::function<std::vector<Fault>(const Scene&)>;
 
 /// Reads a scene file and puts overrides, `path=value` each, over it. A value is read as JSON, or else taken as a text;
-/// paths of meshes are relative to the scene file.
-/// Throws SceneError with every fault of the file, of the overrides and of the scene they make (see validate.h).
+/// paths of meshes are relative to the scene file, and do not lead out of its folder, by a link neither, unless
+/// `places` lets them. Throws SceneError with every fault of the file, of the overrides and of the scene they make (see
+/// validate.h).
 ResolvedScene read_resolved_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {},
-                                  const FurtherCheck& further = {});
+                                  const FurtherCheck& further = {}, MeshPlaces places = MeshPlaces::in_its_folder);
 
-/// The same of a scene that is at hand as text; `name` stands for the file in messages.
+/// The same of a scene that is at hand as text; `name` stands for the file in messages. What a run has written down of
+/// itself names its meshes by where they were found, so that these may lie anywhere.
 ResolvedScene read_resolved_text(std::string text, const std::string& name, std::span<const std::string> overrides = {},
-                                 const FurtherCheck& further = {});
+                                 const FurtherCheck& further = {}, MeshPlaces places = MeshPlaces::anywhere);
 
 /// The settings of a surface with overrides put over them, as those of a scene: "cube_size=0.5", "method.type=density".
 /// Throws SceneError with every fault.

@@ -12,6 +12,8 @@ namespace sessile {
 
 namespace {
 
+constexpr std::size_t most_faults = 1000;  // that are kept; a hostile file could have millions
+
 std::string with_unit(const std::string& text, std::string_view unit) {
   return unit.empty() ? text : text + " " + std::string(unit);
 }
@@ -54,6 +56,7 @@ std::ptrdiff_t ValueReader::key_offset(const Json::Value& json) const {
 }
 
 void ValueReader::fault(const Json::Value& json, const std::string& path, std::string message) {
+  if (faults_.size() == most_faults) return;
   const std::ptrdiff_t offset = json.getOffsetStart();
   // An entry of a list has no key, and a value may stand lines below its key: the key is what people look for.
   faults_.push_back({offset < 0 ? offset : text_.key_offset(offset), path, std::move(message)});
@@ -157,6 +160,16 @@ std::string_view ValueReader::read_type(const Json::Value& json, const std::stri
   return {};
 }
 
+/// Links are followed first: one may lead out of the folder as `..` does.
+bool ValueReader::is_outside(const std::filesystem::path& file) const {
+  std::error_code error;
+  const auto place = std::filesystem::weakly_canonical(file, error);
+  if (error) return false;  // it cannot be read either, and the system says why
+  const auto folder = std::filesystem::weakly_canonical(folder_.empty() ? "." : folder_, error);
+  if (error) return true;
+  return std::mismatch(folder.begin(), folder.end(), place.begin(), place.end()).first != folder.end();
+}
+
 void ValueReader::resolve_file(const Json::Value& json, const std::string& path, std::string& file) {
   std::error_code error;
   const auto resolved = std::filesystem::absolute(folder_ / file, error).lexically_normal();
@@ -164,6 +177,11 @@ void ValueReader::resolve_file(const Json::Value& json, const std::string& path,
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension != ".obj" && extension != ".stl" && extension != ".ply") {
     fault(json, path, "expected the name of an .obj, .stl or .ply file, found " + in_quotes(file));
+  } else if (places_ == MeshPlaces::in_its_folder && json.getOffsetStart() >= 0 && is_outside(resolved)) {
+    fault(json, path,
+          in_quotes(file) +
+              " lies outside the scene's folder: --allow-outside lets a scene read there, "
+              "or move the file beside the scene");
   } else if (!std::filesystem::is_regular_file(resolved, error)) {
     const std::string why = error ? error.message() : "it is no file";
     fault(json, path, "cannot read " + in_quotes(file) + ": " + why);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sessile/core/vec.h"
+#include "sessile/scene/read.h"
 #include "sessile/scene/scene_text.h"
 #include "sessile/scene/shapes.h"
 #include "sessile/scene/spelling.h"
@@ -24,7 +25,9 @@ namespace sessile {
 /// Reads JSON values into declared structs, and keeps every fault it meets. A faulty value leaves its default.
 class ValueReader {
  public:
-  ValueReader(const SceneText& text, std::filesystem::path folder) : text_(text), folder_(std::move(folder)) {}
+  /// Meshes are looked for from `folder`, and outside of it where `places` lets them lie.
+  ValueReader(const SceneText& text, std::filesystem::path folder, MeshPlaces places = MeshPlaces::in_its_folder)
+      : text_(text), folder_(std::move(folder)), places_(places) {}
 
   struct Found {
     std::ptrdiff_t offset = 0;  ///< of the key or value in the file; negative: of an override
@@ -58,6 +61,7 @@ class ValueReader {
     } else if constexpr (is_list<T>) {
       if (!expect(json.isArray(), json, path, "a list [...]")) return;
       value.clear();
+      if (too_long<typename T::value_type>(json, path)) return;
       for (Json::ArrayIndex i = 0; i < json.size(); ++i) {
         read_entry(json[i], path + "[" + std::to_string(i) + "]", range, unit, value.emplace_back());
       }
@@ -80,10 +84,20 @@ class ValueReader {
   void read_int(const Json::Value& json, const std::string& path, Range range, std::string_view unit, int& value);
   void read_vector(const Json::Value& json, const std::string& path, Range range, std::string_view unit, Vec3d& value);
   void unknown_keys(const Json::Value& json, const std::string& path, std::vector<std::string_view> valid, bool choice);
+  bool is_outside(const std::filesystem::path& file) const;
   void missing(const Json::Value& json, const std::string& path, std::string_view help, std::string_view unit);
   void resolve_file(const Json::Value& json, const std::string& path, std::string& file);
   std::string_view read_type(const Json::Value& json, const std::string& path, bool must,
                              const std::vector<std::string_view>& names);
+
+  /// Each entry of a list of groups is judged beside others; a list of numbers is bounded by the text's own bounds.
+  template <class T>
+  bool too_long(const Json::Value& json, const std::string& path) {
+    const bool groups = is_choice<T> || Declared<T>;
+    if (!groups || json.size() <= most_groups) return false;
+    fault(json, path, "has more than " + std::to_string(most_groups) + " entries");
+    return true;
+  }
 
   template <class T>
   void read_entry(const Json::Value& json, const std::string& path, Range range, std::string_view unit, T& value) {
@@ -146,10 +160,12 @@ class ValueReader {
     }
   }
 
+  static constexpr Json::ArrayIndex most_groups = 10000;
   static constexpr std::string_view keep = "keep";
 
   const SceneText& text_;
   std::filesystem::path folder_;
+  MeshPlaces places_;
   std::vector<Found> faults_;
   std::map<std::string, std::ptrdiff_t> offsets_;
   std::set<std::string> given_;

@@ -4,23 +4,23 @@
 #include <json/reader.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <system_error>
 #include <utility>
 
 #include "sessile/core/error.h"
+#include "sessile/scene/input_file.h"
 
 namespace sessile {
 
 namespace {
 
 constexpr std::size_t deepest_level = 64;
-constexpr std::uintmax_t largest_file = std::uintmax_t{64} << 20;
+constexpr std::uintmax_t largest_file = std::uintmax_t{16} << 20;
+constexpr std::size_t most_values = 2'000'000;  // each takes some hundred bytes once read
+constexpr std::size_t most_repeated = 100;      // that are told of
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
@@ -61,19 +61,12 @@ SceneText::SceneText(std::string text) : text_(std::move(text)) {
 
 SceneText SceneText::from_file(const std::filesystem::path& file) {
   const auto cannot = [&](const std::string& why) { return SceneError(file.string() + ": cannot be read: " + why); };
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw cannot(error ? error.message() : "No such file or directory");
-  if (std::filesystem::is_directory(status)) throw cannot("it is a folder");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw cannot(std::strerror(errno));
   std::string text;
-  std::array<char, 1 << 16> block;
-  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > largest_file) throw cannot(fmt::format("it is larger than {} MiB", largest_file >> 20));
+  try {
+    text = read_input(file, largest_file, Input::file_or_pipe);
+  } catch (const FileError& fault) {
+    throw cannot(fault.what());
   }
-  if (stream.bad()) throw cannot(std::strerror(errno));
   if (text.find('\0') != std::string::npos) throw cannot("it is no text file");
   return SceneText(std::move(text));
 }
@@ -162,12 +155,18 @@ void SceneText::scan_word(std::size_t begin, std::size_t end) {
 void SceneText::scan() {
   std::vector<Level> levels;
   std::ptrdiff_t key = -1;  // offset of the key whose value comes next
+  std::size_t values = 0;
   const auto value_starts = [&](std::size_t at) {
+    ++values;
     if (key >= 0) key_of_value_.emplace(at, key);
     key = -1;
   };
   for (std::size_t at = 0; at < text_.size();) {
     const char c = text_[at];
+    if (values > most_values) {
+      errors_.push_back({line(static_cast<std::ptrdiff_t>(at)), fmt::format("holds more than {} values", most_values)});
+      return;
+    }
     if (const std::size_t after = c == '/' ? skip_comment(at) : at; after != at) {
       at = after;
     } else if (c == '"') {
@@ -183,7 +182,8 @@ void SceneText::scan() {
         level.key = text_.substr(at + 1, end - at - 1);
         const auto offset = static_cast<std::ptrdiff_t>(at);
         const auto [first, fresh] = level.seen.emplace(level.key, offset);
-        if (!fresh) repeated_keys_.push_back({offset, first->second, path_of(levels)});
+        if (!fresh && repeated_keys_.size() < most_repeated)
+          repeated_keys_.push_back({offset, first->second, path_of(levels)});
         key = offset;
         at = next + 1;
       } else {

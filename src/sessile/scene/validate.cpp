@@ -63,6 +63,8 @@ class RangeCheck {
   std::vector<Fault>& faults_;
 };
 
+bool is_control(char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }
+
 class SceneCheck {
  public:
   SceneCheck(const Scene& scene, std::vector<Fault>& faults) : scene_(scene), faults_(faults) {}
@@ -73,6 +75,9 @@ class SceneCheck {
     }
     if (scene_.spacing < least_spacing || scene_.spacing > greatest_spacing) {
       add("spacing", fmt::format("must be from {} to {} m, found {}", least_spacing, greatest_spacing, scene_.spacing));
+    }
+    if (std::any_of(scene_.title.begin(), scene_.title.end(), is_control)) {
+      add("title", "may not hold control characters");  // a terminal would obey them
     }
     time();
     pressure();
@@ -168,7 +173,7 @@ class SceneCheck {
 
   /// Labels become headers of a table.
   void label(const std::string& path, const std::string& label) {
-    const auto bad = [](char c) { return c == ',' || c == '"' || std::iscntrl(static_cast<unsigned char>(c)) != 0; };
+    const auto bad = [](char c) { return c == ',' || c == '"' || is_control(c); };
     if (std::any_of(label.begin(), label.end(), bad)) {
       add(path + ".label", "may not hold commas, quotation marks or control characters");
     }

@@ -1,0 +1,109 @@
+"""Scenes, files and folders that mean harm, as a user meets them."""
+import json
+import os
+import unittest
+
+from sessile_cli import BAD_INPUT, FAILED, CliTest, tiny
+
+TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
+class Outside(CliTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "scenes").mkdir()
+        (self.folder / "outside.obj").write_text(TETRAHEDRON)
+        mesh = {"label": "rock", "shape": {"type": "mesh", "file": "../outside.obj", "scale": 0.1}}
+        (self.folder / "scenes/s.json").write_text(json.dumps(tiny(solids=[mesh])))
+
+    def test_a_scene_reads_its_own_folder_alone(self):
+        for command in ("check", "run", "view", "picture", "compare"):
+            more = {"picture": ["-o", "p.png"], "compare": ["--methods", "none,paper"]}.get(command, [])
+            with self.subTest(command):
+                lines = self.refused(command, "scenes/s.json", *more)
+                self.assertEqual(lines, ["scenes/s.json:1: solids[0].shape.file: \"../outside.obj\" lies outside the "
+                                         "scene's folder: --allow-outside lets a scene read there, or move the file "
+                                         "beside the scene"])
+
+    def test_it_reads_elsewhere_when_asked(self):
+        self.call("check", "scenes/s.json", "--allow-outside")
+        self.call("run", "scenes/s.json", "--allow-outside", "-o", "out", "--progress", "none")
+        # What the run wrote down of itself is read without asking again.
+        self.call("mesh", "out", "--set", "cube_size=2")
+        self.call("run", "--resume", "out", "--until", "0.05", "--progress", "none")
+
+    def test_a_mesh_that_the_user_names_may_lie_anywhere(self):
+        self.call("check", "scenes/s.json", "--set", "solids[0].shape.file=../outside.obj")
+
+
+class OddFiles(CliTest):
+    def test_what_is_no_file(self):
+        (self.folder / "folder.json").mkdir()
+        (self.folder / "empty.json").write_text("")
+        (self.folder / "bytes.json").write_bytes(b"\xff\xfe\x80{}")
+        os.mkfifo(self.folder / "pipe.json")
+        for name, why in (("folder.json", "it is a folder"), ("/dev/zero", "it is a device"),
+                          ("empty.json", ""), ("bytes.json", ""), ("pipe.json", ""), ("none.json", "No such file")):
+            with self.subTest(name):
+                _, err = self.call("check", name, code=BAD_INPUT, timeout=20)
+                self.assertIn(why, err)
+                self.assertEqual(len(err.splitlines()), 1, err)
+
+    def test_a_scene_from_a_pipe_and_one_with_a_mark(self):
+        self.write(tiny())
+        (self.folder / "mark.json").write_bytes(b"\xef\xbb\xbf" + json.dumps(tiny()).encode())
+        self.call("check", "mark.json")
+        self.call("check", "/dev/fd/3", before="exec 3< <(cat s.json)")
+
+    def test_pipes_and_devices_in_results(self):
+        self.write(tiny())
+        self.call("run", "s.json", "-o", "out", "--progress", "none")
+        os.remove(self.folder / "out/frames.pvd")
+        os.mkfifo(self.folder / "out/frames.pvd")  # its times stand in the frames too
+        self.call("mesh", "out", "--set", "cube_size=2", timeout=30)
+        os.remove(self.folder / "out/frame_000001.vtp")
+        os.symlink("/dev/zero", self.folder / "out/frame_000001.vtp")
+        _, err = self.call("mesh", "out", "--set", "cube_size=2", "-o", "again", code=FAILED, timeout=30)
+        self.assertIn("frame_000001.vtp: it is a device", err)
+
+
+class Links(CliTest):
+    def test_links_in_the_output_folder_are_replaced(self):
+        self.write(tiny())
+        precious = self.folder / "precious"
+        precious.write_text("mine")
+        out = self.folder / "out"
+        out.mkdir()
+        for name in ("frame_000001.ply", ".frame_000001.ply.part", "frame_000000.vtp", "stats.csv", "scene.json",
+                     ".scene.json.part", "summary.json", "frames.pvd", "solids.vtp"):
+            os.symlink(precious, out / name)
+        self.call("run", "s.json", "-o", "out", "--progress", "none")
+        self.assertEqual(precious.read_text(), "mine")
+        self.assertEqual([path.name for path in out.iterdir() if path.is_symlink()], [])
+
+
+class HugeCounts(CliTest):
+    def test_are_refused_with_a_sentence(self):
+        self.write(tiny(emitters=[]))
+        for override in ("bodies[0].shape.size=[3000, 3000, 3000]", "bodies[0].shape.size=[0.1, 0.1, 1e12]",
+                         'solids[0].shape={"type": "cylinder", "radius": 1e-9, "height": 1e11}',
+                         'solids[0].shape={"type": "sphere", "radius": 1e6}',
+                         'emitters[0]={"shape": {"type": "disc", "radius": 1e6}, "interval": 1}'):
+            with self.subTest(override):
+                # Half a GiB of address space beyond the program's own: it is not tried.
+                _, err = self.call("check", "s.json", "--set", override, code=BAD_INPUT, timeout=20,
+                                   before="ulimit -v 4000000")
+                self.assertRegex(err, r"^s\.json.*a larger spacing needs fewer")
+                self.assertEqual(len(err.splitlines()), 1)
+
+    def test_numbers_beyond_all_bounds(self):
+        self.write(tiny())
+        for value in ("NaN", "-Infinity", "1e999", "-1e999", "1" + "0" * 400):
+            for path in ("spacing", "time.end", "bodies[0].shape.size[0]", "fluid.viscosity"):
+                with self.subTest(f"{path}={value[:10]}"):
+                    _, err = self.call("check", "s.json", "--set", f"{path}={value}", code=BAD_INPUT)
+                    self.assertIn("not finite", err)
+
+
+if __name__ == "__main__":
+    unittest.main()
