@@ -140,7 +140,7 @@ void Ledger::check_counts(const Before& before) {
 // Rounding: each velocity is rounded to eps |v| at each of its two changes, each sum over some 30 neighbours to about
 // eps times the sum of its terms' magnitudes. For pressure that sum is below (p_i + p_j) int |grad W| dV < 6 p/dx, for
 // the other forces it is estimated by pair_acceleration(); viscosity's is below 10 nu |v|/dx^2, and dt nu/dx^2 < 1/8.
-// Errors of one sign throughout would come to the tolerance; as they are not, 600 scenes came to 0.06 of it.
+// Errors of one sign throughout would come to the tolerance.
 //
 // Energy: the account adds up m dt a . (v + v')/2 in double of velocities rounded at each change, so that a step's
 // error is eps times the squares of the speeds that occur in it.

@@ -90,9 +90,9 @@ void draw_line(ImDrawList& draw, const Axes& axes, const std::vector<double>& ti
     }
     if (!any) continue;
     if (bottom - top > 1) {
-      line.push_back({at, last == top ? bottom : top});
+      line.emplace_back(at, last == top ? bottom : top);
     }
-    line.push_back({at, last});
+    line.emplace_back(at, last);
   }
   draw.AddPolyline(line.data(), static_cast<int>(line.size()), line_color, ImDrawFlags_None, 1.5F);
 }

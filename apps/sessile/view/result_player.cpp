@@ -138,7 +138,7 @@ std::shared_ptr<const Snapshot> ResultPlayer::frame(std::size_t place) {
       throw;
     }
   }
-  const auto result = held;
+  auto result = held;
   forget_far_from(place);
   return result;
 }
