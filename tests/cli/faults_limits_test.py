@@ -18,7 +18,9 @@ def larger():
 class Limits(Good):
     def attempt(self, *arguments, before="", faults=None):
         """(exit code, standard error) of a run into out, which must not end by a signal."""
-        command = ["bash", "-c", before + '; exec "$@"', "bash", PROGRAM, "run", *arguments, "-o", "out", "--progress", "none"]
+        command = [PROGRAM, "run", *arguments, "-o", "out", "--progress", "none"]
+        if before:  # faults are not for the shell
+            command = ["bash", "-c", before + '; exec "$@"', "bash", *command]
         result = subprocess.run(command, cwd=self.folder, env={**self.environment(), **self.loaded(faults)}, timeout=60,
                                 text=True, stdin=subprocess.DEVNULL, capture_output=True)
         self.assertIn(result.returncode, (DONE, FAILED, NO_LIBRARIES), f"{before} {faults}: {result.stderr}")
