@@ -1,6 +1,7 @@
 #include "start.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -39,6 +40,18 @@ std::vector<Isa> eligible_isas() {
   return isas;
 }
 
+/// Whether the stack is large enough; says so where it is not. Steps keep their arrays elsewhere, and run with 128 KiB;
+/// with 64 KiB the system ends the program without a word.
+bool has_stack() {
+  constexpr rlim_t least = rlim_t{256} << 10;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= least) return true;
+  say(stderr,
+      fmt::format("sessile: the stack is limited to {} KiB, which is too little; `ulimit -s 8192` gives enough\n",
+                  limit.rlim_cur >> 10));
+  return false;
+}
+
 /// Asks for OpenMP threads that soon sleep when they wait, unless the user has chosen otherwise; true where that takes
 /// a new start, since the runtime reads its environment before main. By default they spin for long: beside other work
 /// on the same cores, a step then takes up to 60 times longer (docs/decisions/threads-wait-passively.md).
@@ -51,6 +64,7 @@ bool let_threads_sleep() {
 }  // namespace
 
 bool start(char** argv) {
+  if (!has_stack()) return false;
   const bool anew = let_threads_sleep();
   const char* const wish = std::getenv("SESSILE_ISA");
   const std::string own = build_info().isa;

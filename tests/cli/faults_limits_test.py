@@ -1,7 +1,7 @@
 """Limits of the system: files, memory, threads, stack; standard streams that are closed. No crash, and good files."""
 import re
 
-from sessile_cli import DONE, FAILED, PROGRAM, subprocess, tiny, unittest
+from sessile_cli import BAD_INPUT, DONE, FAILED, PROGRAM, subprocess, tiny, unittest
 from trouble_test import Good
 
 NO_LIBRARIES = 127  # the system could not even load the program
@@ -18,7 +18,9 @@ def larger():
 class Limits(Good):
     def attempt(self, *arguments, before="", faults=None):
         """(exit code, standard error) of a run into out, which must not end by a signal."""
-        command = ["bash", "-c", before + '; exec "$@"', "bash", PROGRAM, "run", *arguments, "-o", "out", "--progress", "none"]
+        command = [PROGRAM, "run", *arguments, "-o", "out", "--progress", "none"]
+        if before:  # faults are not for the shell
+            command = ["bash", "-c", before + '; exec "$@"', "bash", *command]
         result = subprocess.run(command, cwd=self.folder, env={**self.environment(), **self.loaded(faults)}, timeout=60,
                                 text=True, stdin=subprocess.DEVNULL, capture_output=True)
         self.assertIn(result.returncode, (DONE, FAILED, NO_LIBRARIES), f"{before} {faults}: {result.stderr}")
@@ -37,14 +39,14 @@ class Limits(Good):
 class Files(Limits):
     def test_few_may_be_open(self):
         name, codes = self.write(larger()), set()
-        for limit in range(4, 14):
+        for limit in (4, 6, 8, 13):
             code, err = self.attempt(name, before=f"ulimit -n {limit}")
             self.expect(code, err, r"\Asessile: cannot [^\n]*Too many open files")
             codes.add(code)
         self.assertEqual(codes - {NO_LIBRARIES}, {DONE, FAILED})
 
     def test_what_helps_is_said(self):
-        for limit in range(6, 12):
+        for limit in (8, 7, 9, 10):
             code, err = self.attempt(self.write(larger()), before=f"ulimit -n {limit}")
             if code == FAILED and "cannot write" in err:
                 self.assertIn("; too few files may be open at once: `ulimit -n 256` is enough for any run\n", err)
@@ -64,12 +66,12 @@ class Memory(Limits):
             if code == DONE:
                 break
             failed += 1
-            after = after + 1 + after // 3
-        self.assertGreater(failed, 10)
+            after = 2 * after + 1
+        self.assertGreater(failed, 4)
 
     def test_a_limit(self):
         name, codes = self.write(larger()), set()
-        for mib in range(120, 1200, 60):
+        for mib in (150, 250, 1200):
             code, err = self.attempt(name, "--threads", "2", before=f"ulimit -v {mib * 1024}")
             if "terminate" not in err and code == FAILED and not re.search(self.MESSAGE, err):
                 self.fail(f"{mib} MiB: {err}")
@@ -96,9 +98,11 @@ class Threads(Limits):
                                                "fewer, `ulimit -u` and `ulimit -v` show the limits\n"))
 
     def test_a_small_stack(self):
-        for kib in (64, 128, 256, 1024):
-            code, err = self.attempt(self.write(larger()), "--threads", "2", before=f"ulimit -s {kib}")
-            self.expect(code, err, r"\Asessile: the stack ")
+        name = self.write(larger())
+        code, _ = self.attempt(name, "--threads", "2", before="ulimit -s 256")
+        self.assertEqual(code, DONE)
+        _, err = self.call("run", name, "-o", "out", code=BAD_INPUT, before="ulimit -s 128")
+        self.assertEqual(err, "sessile: the stack is limited to 128 KiB, which is too little; `ulimit -s 8192` gives enough\n")
 
 
 class Streams(Limits):
