@@ -16,6 +16,12 @@ namespace sessile::app {
 namespace {
 
 bool is_memory(const std::exception& fault) {
+  if (const auto* const system = dynamic_cast<const std::system_error*>(&fault)) {
+    return system->code() == std::errc::not_enough_memory;
+  }
+  if (const auto* const file = dynamic_cast<const FileError*>(&fault)) {
+    return file->reason == std::errc::not_enough_memory;
+  }
   return dynamic_cast<const std::bad_alloc*>(&fault) != nullptr ||
          dynamic_cast<const std::length_error*>(&fault) != nullptr;
 }

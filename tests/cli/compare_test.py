@@ -142,7 +142,7 @@ class Failing(CompareTest):
 
     def test_no_room_ends_it(self):
         _, err = self.compare("nothing,under_score", code=FAILED, before="ulimit -f 1")
-        self.assertRegex(err, r"\Asessile: cannot write out/nothing/\S+: File too large\n\Z")
+        self.assertRegex(err, r"\Asessile: cannot write out/nothing/\S+: File too large; a limit on the size of files stands in the way .*; what had been written is whole\n")
 
 
 class Resuming(CompareTest):

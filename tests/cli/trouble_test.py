@@ -64,7 +64,7 @@ class NobodyReads(Good):
         self.run_until_nobody_reads("json", "stdout", tiny(time={"end": 1e4, "fixed_dt": 0.005}))
 
     def test_the_warnings(self):
-        self.run_until_nobody_reads("plain", "stderr", tiny(time={"end": 1e6, "fixed_dt": 0.5}, output={"frame_interval": 5}))
+        self.run_until_nobody_reads("plain", "stderr", tiny(time={"end": 1e6, "fixed_dt": 0.12}, output={"frame_interval": 5}))
 
     def test_streams_on_a_full_disk(self):
         scene = self.write(tiny())
@@ -80,7 +80,8 @@ class NoFolder(CliTest):
 
     def expect(self, folder, message):
         out, err = self.call("run", self.write(tiny()), "-o", folder, code=FAILED)
-        self.assertEqual((out, err), ("", f"sessile: {message}\n"))
+        self.assertEqual(out, "")
+        self.assertEqual(err.split(";")[0], f"sessile: {message}")
 
     def test_below_a_file(self):
         (self.folder / "file").write_text("mine")
@@ -101,7 +102,7 @@ class NoRoom(Good):
         out, err = self.call("run", self.write(tiny(**scene)), "-o", "out", "--progress", "none", *options, code=FAILED,
                              before=f"ulimit -f {kib}")
         self.assertEqual(out, "")
-        self.assertRegex(err, r"\Asessile: cannot write out/\S+: File too large\n\Z")
+        self.assertRegex(err, r"\Asessile: cannot write out/\S+: File too large; a limit on the size of files stands in the way .*; what had been written is whole\n")
         return err
 
     def test_after_some_frames(self):

@@ -53,7 +53,7 @@ constexpr const char* small = R"({"spacing": 0.1, "time": {"end": 1, "fixed_dt":
 /// A scene that uses every kind of field, away from every default.
 Scene rich(const std::string& mesh) {
   Scene s;
-  s.title = "a \"quoted\" text with \\ and \n and \xC3\xA4";
+  s.title = "a \"quoted\" text with \\ and / and \xC3\xA4";
   s.spacing = 0.1 + 0.2;
   s.support = 1.0 / 0.3;
   s.gravity = {1e-300, -1.0 / 3, 9.81};
