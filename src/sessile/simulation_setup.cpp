@@ -1,6 +1,4 @@
 #include <fmt/format.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <set>
 
 #include "sessile/core/error.h"
+#include "sessile/core/hash.h"
 #include "sessile/core/memory_limit.h"
 #include "sessile/forces/viscosity.h"
 #include "sessile/neighbors/step_view.h"
@@ -122,13 +121,13 @@ std::vector<std::string> misplaced(const Array3& points, const std::vector<std::
 
 /// Of what the solids are made of: the places of their samples and whose they are.
 std::uint64_t digest(const Walls& walls) {
-  std::uint64_t hash = 0;
-  const auto add = [&](const auto& array) { hash = XXH3_64bits_withSeed(array.data(), bytes_of(array), hash); };
+  std::uint64_t sum = 0;
+  const auto add = [&](const auto& array) { sum = hash(array.data(), bytes_of(array), sum); };
   add(walls.position.x);
   add(walls.position.y);
   add(walls.position.z);
   add(walls.solid);
-  return hash;
+  return sum;
 }
 
 /// Refuses a state that cannot be one of this scene's.

@@ -51,7 +51,7 @@ class ResumeTest(CliTest):
             self.assertTrue(content == second[name], f"{name} differs in {other}")
 
     def checkpoints(self, folder):
-        return sorted(path.name for path in (self.folder / folder / "checkpoints").iterdir())
+        return sorted(path.name for path in (self.folder / folder / "checkpoints").glob("checkpoint_*.sessile"))
 
 
 class Killed(ResumeTest):
@@ -63,7 +63,7 @@ class Killed(ResumeTest):
         self.write(lively(), "killed.json")
         kills = resumes = 0
         while kills < 20:
-            begun = (self.folder / "killed/checkpoints").is_dir() and self.checkpoints("killed")
+            begun = self.checkpoints("killed")
             run = self.start("run", *(["--resume", "killed"] if begun else ["killed.json", "-o", "killed"]),
                              "--progress", "none")
             time.sleep(moments.uniform(0.02, 0.6 * lasts + 0.05))
@@ -79,7 +79,10 @@ class Killed(ResumeTest):
                 if not path.name.startswith("."):
                     self.assertTrue(path.read_bytes().rstrip().endswith(b"</VTKFile>"), f"{path} is torn")
         self.assertGreater(resumes, 5, "hardly any run was killed after it had been resumed")
-        self.resume("killed") if self.checkpoints("killed") else self.run_scene(lively(), "killed")
+        if self.checkpoints("killed"):
+            self.resume("killed")
+        else:
+            self.run_scene(lively(), "killed")
         self.assert_same("whole", "killed")
 
     def test_a_torn_checkpoint_is_passed_over(self):

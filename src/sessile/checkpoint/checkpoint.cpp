@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include <array>
 #include <cstring>
@@ -11,6 +9,7 @@
 
 #include "sessile/checkpoint/archive.h"
 #include "sessile/core/error.h"
+#include "sessile/core/hash.h"
 #include "sessile/output/durable.h"
 #include "sessile/scene/input_file.h"
 
@@ -31,7 +30,7 @@ constexpr std::size_t header_bytes = magic.size() + sizeof(Header);
 
 std::uint64_t checksum(Header header, std::string_view content) {
   header.checksum = 0;
-  return XXH3_64bits_withSeed(content.data(), content.size(), XXH3_64bits(&header, sizeof header));
+  return hash(content.data(), content.size(), hash(&header, sizeof header));
 }
 
 template <class A, class C>
