@@ -1,7 +1,7 @@
 /// A machine with faults, for LD_PRELOAD: calls of the C library fail, wait or tell the wrong time, as the environment
 /// says. Everything else goes through.
 ///
-///   FAULT_CALL=fsync     which call: write, fsync, rename, flock, pthread_create, malloc, clock, log
+///   FAULT_CALL=fsync     which call: write, fsync, rename, flock, pthread_create (from `main` on), malloc, clock, log
 ///   FAULT_PATH=frame_    of files whose path holds this text only
 ///   FAULT_AFTER=3        so many such calls still go through
 ///   FAULT_COUNT=2        then so many fail; all that follow unless given
@@ -40,6 +40,9 @@ const char* setting(const char* name) {
 }
 
 std::atomic<long> seen = 0;
+
+/// Threads that shared libraries start while they are loaded are not the program's: it has not begun.
+bool begun = false;
 
 /// Whether this call is one that fails; it then never returns, or sets errno.
 bool fails(const char* call, const char* path) {
@@ -145,9 +148,18 @@ int flock(int descriptor, int operation) noexcept {
 }
 
 int pthread_create(pthread_t* thread, const pthread_attr_t* how, void* (*work)(void*), void* with) noexcept {
-  if (fails("pthread_create", "")) return errno;
+  if (begun && fails("pthread_create", "")) return errno;
   return real<int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>("pthread_create")(thread, how, work,
                                                                                                      with);
+}
+
+using Main = int (*)(int, char**, char**);
+using Hook = void (*)();
+
+int __libc_start_main(Main program, int count, char** words, Hook first, Hook last, Hook linker, void* stack) {  // NOLINT
+  begun = true;
+  return real<int (*)(Main, int, char**, Hook, Hook, Hook, void*)>("__libc_start_main")(program, count, words, first,
+                                                                                        last, linker, stack);
 }
 
 int clock_gettime(clockid_t clock, timespec* now) noexcept {

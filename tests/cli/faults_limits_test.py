@@ -5,7 +5,7 @@ from sessile_cli import BAD_INPUT, DONE, FAILED, PROGRAM, subprocess, tiny, unit
 from trouble_test import Good
 
 NO_LIBRARIES = 127  # the system could not even load the program
-WARNING = dict(time={"end": 0.48, "fixed_dt": 0.12}, output={"frame_interval": 0.12, "stats_interval": 0.12})
+WARNING = dict(forces=[], solids=[], time={"end": 0.48, "fixed_dt": 0.12}, output={"frame_interval": 0.12, "stats_interval": 0.12})
 
 
 def larger():

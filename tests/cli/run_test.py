@@ -171,7 +171,7 @@ class ProgressStyles(CliTest):
         self.assertEqual(self.progress("none")[1], "")
 
     def test_warnings_come_in_the_same_style(self):
-        scene = tiny(time={"end": 0.24, "fixed_dt": 0.12})
+        scene = tiny(time={"end": 0.24, "fixed_dt": 0.12}, forces=[], solids=[])  # it falls
         warning = r"at 0\.12 s the step of 0\.12 s \(fixed\) exceeds the \w+ bound"
         self.assertRegex(self.progress("plain", scene)[1], rf"(?m)^warning: {warning}$")
         out, err = self.progress("json", scene)

@@ -64,7 +64,7 @@ class NobodyReads(Good):
         self.run_until_nobody_reads("json", "stdout", tiny(time={"end": 1e4, "fixed_dt": 0.005}))
 
     def test_the_warnings(self):
-        self.run_until_nobody_reads("plain", "stderr", tiny(time={"end": 1e6, "fixed_dt": 0.12}, output={"frame_interval": 5}))
+        self.run_until_nobody_reads("plain", "stderr", tiny(time={"end": 1e6, "fixed_dt": 0.12}, output={"frame_interval": 5}, forces=[], solids=[]))
 
     def test_streams_on_a_full_disk(self):
         scene = self.write(tiny())
@@ -112,7 +112,7 @@ class NoRoom(Good):
         self.assertIn("out/stats.csv", err)
         summary, frames = self.expect_good_results("out", "failed")
         self.assertGreater(len(frames), 1)
-        self.assertEqual(f"sessile: {summary['message']}\n", err)
+        self.assertEqual(f"sessile: {summary['message']}", err.split(";")[0])  # what helps follows
 
     def test_for_no_frame_at_all(self):
         err = self.limited(1, bodies=[{"shape": {"type": "box", "size": [1, 1, 1]}, "placement": {"position": [0, 0, 1]}}])
@@ -127,7 +127,7 @@ class NoRoom(Good):
         self.assertRegex(err, r"out/frame_\d+\.vtp")
         summary, frames = self.expect_good_results("out", "failed")
         self.assertGreater(len(frames), 1)
-        self.assertEqual(f"sessile: {summary['message']}\n", err)
+        self.assertEqual(f"sessile: {summary['message']}", err.split(";")[0])  # what helps follows
 
 
 if __name__ == "__main__":
