@@ -156,7 +156,8 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* how, void* (*work)(v
 using Main = int (*)(int, char**, char**);
 using Hook = void (*)();
 
-int __libc_start_main(Main program, int count, char** words, Hook first, Hook last, Hook linker, void* stack) {  // NOLINT
+int __libc_start_main(Main program, int count, char** words, Hook first, Hook last, Hook linker,
+                      void* stack) {  // NOLINT
   begun = true;
   return real<int (*)(Main, int, char**, Hook, Hook, Hook, void*)>("__libc_start_main")(program, count, words, first,
                                                                                         last, linker, stack);

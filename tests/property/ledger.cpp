@@ -190,6 +190,9 @@ void Ledger::check_motion(const Before& before) {
     fault(fmt::format("kinetic energy {:g} J, its account says {:g} J: {:g} times the tolerance", energy,
                       now.energy.kinetic(), share));
   }
+  // Bounded: whatever the forces and pressures, no velocity is worth more than a support radius a step.
+  const double most = units.support_radius / dx;
+  if (!(worst_move_ <= most)) fault(fmt::format("a particle moves by {:g} dx in a step of {:g} s", worst_move_, dt));
   const double had = now.energy.start + now.energy.emitted + std::max(0.0, now.energy.forces);
   worst_work_ = std::max(worst_work_, now.energy.pressure / had);
 }
