@@ -2,18 +2,13 @@
 
 #include <limits>
 #include <variant>
-#include <vector>
 
 #include "support/cloud.h"
 #include "support/forces.h"
+#include "support/one_of_each.h"
 
 namespace sessile::test {
 namespace {
-
-template <class... T>
-std::vector<std::variant<T...>> one_of_each(const std::variant<T...>&) {
-  return {T{}...};
-}
 
 // A pack of the last particles reads past them, where old memory stands: whatever that is, no bit may depend on it.
 TEST(AnyForce, IsTheSameWhateverStandsPastTheLastParticle) {

@@ -8,16 +8,12 @@
 #include "sessile/core/error.h"
 #include "sessile/scene/describe.h"
 #include "sessile/scene/read.h"
+#include "support/one_of_each.h"
 #include "support/same_bits.h"
 #include "support/scenes.h"
 
 namespace sessile {
 namespace {
-
-template <class... T>
-std::vector<std::variant<T...>> one_of_each(const std::variant<T...>&) {
-  return {T{}...};
-}
 
 template <class V>
 std::string name(const V& chosen) {
@@ -58,7 +54,7 @@ Simulation resumed(const Simulation& simulation) {
 }
 
 TEST(Checkpoint, GoesOnBitForBitWithEverySolver) {
-  for (const Pressure& solver : one_of_each(Pressure{})) {
+  for (const Pressure& solver : test::one_of_each(Pressure{})) {
     Scene scene = busy();
     scene.pressure = solver;
     scene.forces = {SurfaceFeature{}};
@@ -75,7 +71,7 @@ TEST(Checkpoint, GoesOnBitForBitWithEverySolver) {
 }
 
 TEST(Checkpoint, GoesOnBitForBitWithEveryForce) {
-  for (const Force& force : one_of_each(Force{})) {
+  for (const Force& force : test::one_of_each(Force{})) {
     Scene scene = busy();
     scene.forces = {force};
     Simulation whole(scene);

@@ -2,20 +2,16 @@
 
 #include <cmath>
 
+#include "support/one_of_each.h"
 #include "support/scenes.h"
 
 namespace sessile {
 namespace {
 
-template <class... T>
-std::vector<std::variant<T...>> one_of_each(const std::variant<T...>&) {
-  return {T{}...};
-}
-
 // A drop that falls on to a plate by every force with every solver: nothing is lost, and the liquid slows down.
 TEST(AnyForce, GoesWithAnySolver) {
-  for (const Force& force : one_of_each(Force{})) {
-    for (const Pressure& solver : one_of_each(Pressure{})) {
+  for (const Force& force : test::one_of_each(Force{})) {
+    for (const Pressure& solver : test::one_of_each(Pressure{})) {
       Scene scene = test::block(6, 1e-3, 0.1);
       scene.gravity = {0, 0, -9.81};
       scene.bodies[0].placement.position = {0, 0, 0.4};

@@ -33,14 +33,15 @@ struct Solved {
   PressureScratch scratch;
 };
 
-Solved solved(const test::Cloud& cloud, Iteration iteration, double error, int most = 4000, int least = 2) {
+Solved solved(const test::Cloud& cloud, Iteration iteration, double error, int most = 4000, int least = 2,
+              Real start = 0) {
   Iisph method;
   method.iteration = iteration;
   method.error = error;
   method.min_iterations = least;
   method.max_iterations = most;
   Solved s;
-  s.pressure.assign(cloud.particles.size(), 0);
+  s.pressure.assign(cloud.particles.size(), start);
   s.result = solve(method, cloud.view(), cloud.particles.velocity, dt, s.pressure, s.scratch);
   return s;
 }
@@ -130,6 +131,26 @@ TEST(Conjugate, WhatItCarriesIsWhatThePressuresGive) {
       left += std::max(0.0, static_cast<double>(density[i]) - 1);
     }
     EXPECT_NEAR(left / static_cast<double>(density.size()), s.result.error, 1e-7) << turns;
+  }
+}
+
+// Too much liquid for a space without an edge: no pressure can mend it, and rounding must not be taken for a push.
+TEST(Conjugate, LeavesAloneWhatNoPressureCanMend) {
+  test::Cloud cloud = test::lattice(6, 0);
+  const auto edge = Real(0.6);
+  cloud.space = Space{{edge, edge, edge}, {1 / edge, 1 / edge, 1 / edge}, true};
+  for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+    cloud.particles.mass[i] = Real(1.05);
+    cloud.particles.velocity.set(i, {});
+  }
+  cloud.look_around();
+  for (const Real start : {0, 1}) {
+    const Solved s = solved(cloud, Iteration::conjugate, 1e-4, 50, 2, start);
+    EXPECT_FALSE(s.result.converged);
+    EXPECT_GT(s.result.error, 0.01);
+    for (std::size_t i = 0; i < cloud.particles.size(); ++i) {
+      EXPECT_LT(dt * dt * std::sqrt(squared_length(vec_cast<double>(s.scratch.acceleration[i]))), 1e-3 * 0.1);
+    }
   }
 }
 

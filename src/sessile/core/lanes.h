@@ -4,6 +4,7 @@
 #error "what touches lanes is compiled for each instruction set: src/sessile/CMakeLists.txt takes this file for shared"
 #endif
 
+#include <cassert>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -56,6 +57,11 @@ using xsimd::sqrt;
 
 inline bool any(bool condition) { return condition; }
 using xsimd::any;
+
+/// Whether no lane is below zero, for assertions; NaN is not.
+inline bool none_negative(Real a) { return !(a < 0); }
+inline bool none_negative(const Lanes& a) { return !any(a < Lanes(Real(0))); }
+inline bool none_negative(const IndexLanes& j) { return !any(j < IndexLanes(0)); }
 
 /// 1/sqrt(a) to float rounding, for a > 0. Root and division of a pack keep its divider busy for some 40 cycles, half
 /// of a pass; the processor's estimate and one step of Newton's method take six. xsimd 8.1 names an instruction for it
@@ -165,6 +171,7 @@ inline __m256i all_lanes() {
 /// The numbers data[j] of the lanes' indices. xsimd 8.1 picks its element-by-element gather even where the processor
 /// has one (a pass then takes twice as long), so the instruction is named here.
 inline Lanes gather(const Real* data, const IndexLanes& j) {
+  assert(data != nullptr && none_negative(j));
 #if defined(SESSILE_DOUBLE)
   return Lanes::gather(data, j);
 #elif defined(__AVX512F__)
@@ -198,6 +205,7 @@ inline void stream_entries(const std::int32_t* list, const IndexLanes& j, std::i
 /// The numbers data[2j] and data[2j + 1] of the lanes' indices. Gathers of 64 bits fetch both at once, and a gather's
 /// time goes by how many places it looks at.
 inline std::pair<Lanes, Lanes> gather_pairs(const Real* data, const IndexLanes& j) {
+  assert(data != nullptr && none_negative(j));
 #if defined(__AVX512F__) && !defined(SESSILE_DOUBLE)
   const auto half = [&](__m256i at) {
     const auto all = static_cast<__mmask8>(all_lanes());

@@ -1,6 +1,7 @@
 #include "sessile/core/radix_sort.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -42,6 +43,8 @@ void radix_sort(Array<KeyedPlace>& items, Array<KeyedPlace>& scratch, int bits) 
     }
     items.swap(scratch);
   }
+  assert(std::is_sorted(items.begin(), items.end(),
+                        [](const KeyedPlace& a, const KeyedPlace& b) { return a.key < b.key; }));
 }
 
 }  // namespace sessile

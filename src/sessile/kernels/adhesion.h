@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cassert>
+
 #include "sessile/core/lanes.h"
 
 namespace sessile {
@@ -12,6 +14,7 @@ struct AdhesionSpline {
 
   AdhesionSpline() = default;
   AdhesionSpline(double support_radius, double spacing) {
+    assert(support_radius > 0 && spacing > 0);
     const double ratio = spacing / support_radius;
     inverse_h = static_cast<Real>(1 / support_radius);
     scale = static_cast<Real>(0.01 * ratio * ratio * ratio);
@@ -20,6 +23,7 @@ struct AdhesionSpline {
   /// dx^3 y(r), dimensionless. The parabola is negative outside its two zeros, h/2 and h.
   template <class T>
   T value(const T& r) const {
+    assert(none_negative(r));
     const T q = r * T(inverse_h);
     return T(scale) * max((q - T(Real(0.5))) * (T(Real(1)) - q), T(Real(0)));
   }

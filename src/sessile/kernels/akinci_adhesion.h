@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cassert>
+
 #include "sessile/core/lanes.h"
 
 namespace sessile {
@@ -12,6 +14,7 @@ struct AkinciAdhesionSpline {
 
   AkinciAdhesionSpline() = default;
   AkinciAdhesionSpline(double support_radius, double spacing) {
+    assert(support_radius > 0 && spacing > 0);
     const double ratio = spacing / support_radius;
     inverse_h = static_cast<Real>(1 / support_radius);
     scale = static_cast<Real>(0.007 * ratio * ratio * ratio);
@@ -21,6 +24,7 @@ struct AkinciAdhesionSpline {
   /// at 0, as rounding too can take it below near r = h: its root would be NaN.
   template <class T>
   T value(const T& r) const {
+    assert(none_negative(r));
     const T q = r * T(inverse_h);
     const T radicand = (T(Real(4)) * q - T(Real(2))) * (T(Real(1)) - q);
     return T(scale) * sqrt(sqrt(max(radicand, T(Real(0)))));

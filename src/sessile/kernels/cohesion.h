@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <numbers>
 
 #include "sessile/core/lanes.h"
@@ -14,6 +15,7 @@ struct CohesionSpline {
 
   CohesionSpline() = default;
   CohesionSpline(double support_radius, double spacing) {
+    assert(support_radius > 0 && spacing > 0);
     const double ratio = spacing / support_radius;
     inverse_h = static_cast<Real>(1 / support_radius);
     scale = static_cast<Real>(32 / std::numbers::pi * ratio * ratio * ratio);
@@ -22,6 +24,7 @@ struct CohesionSpline {
   /// dx^3 d(r), dimensionless; 0 at r = 0 and beyond h.
   template <class T>
   T value(const T& r) const {
+    assert(none_negative(r));
     const T q = r * T(inverse_h);
     const T product = q * max(T(Real(1)) - q, T(Real(0)));
     const T far = product * product * product;

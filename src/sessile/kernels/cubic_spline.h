@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <numbers>
 
 #include "sessile/core/lanes.h"
@@ -16,6 +17,7 @@ struct CubicSpline {
 
   CubicSpline() = default;
   CubicSpline(double support_radius, double spacing) {
+    assert(support_radius > 0 && spacing > 0);
     const double ratio = spacing / support_radius;
     const double sigma = 8 / std::numbers::pi * ratio * ratio * ratio;
     inverse_h = static_cast<Real>(1 / support_radius);
@@ -26,6 +28,7 @@ struct CubicSpline {
   /// dx^3 W(r), dimensionless. Both pieces at once: 2(1-q)^3 - 8(1/2-q)^3, cut off below 0.
   template <class T>
   T value(const T& r) const {
+    assert(none_negative(r));
     const T q = r * T(inverse_h);
     const T outer = max(T(Real(1)) - q, T(Real(0)));
     const T inner = max(T(Real(0.5)) - q, T(Real(0)));
@@ -38,6 +41,7 @@ struct CubicSpline {
   /// dx^3 W'(r)/r [1/m^2]; times x_ij it is the gradient. Finite at r = 0, where the gradient is 0.
   template <class T>
   T slope_over_r(const Separation<T>& pair) const {
+    assert(none_negative(pair.r));
     const T q = pair.r * T(inverse_h);
     const T rest = max(T(Real(1)) - q, T(Real(0)));
     const T inner = T(Real(18)) * q - T(Real(12));
@@ -48,6 +52,7 @@ struct CubicSpline {
   /// dx^3 (W'' + 2 W'/r) [1/m^2]; 0 at h/2, negative below.
   template <class T>
   T laplacian(const Separation<T>& pair) const {
+    assert(none_negative(pair.r));
     const T q = pair.r * T(inverse_h);
     const T rest = max(T(Real(1)) - q, T(Real(0)));
     const T inner = T(Real(72)) * q - T(Real(36));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstdint>
 
 #include "sessile/core/lanes.h"
@@ -28,7 +30,10 @@ struct NeighborView {
   explicit NeighborView(const NeighborList& list) : groups(list.groups()), count(list.counts()) {}
 
   /// Neighbour k of particle i.
-  int at(int i, int k) const { return groups[i / lane_count].first[k * lane_count + i % lane_count]; }
+  int at(int i, int k) const {
+    assert(i >= 0 && k >= 0 && k < count[i]);
+    return groups[i / lane_count].first[k * lane_count + i % lane_count];
+  }
 
   /// Sum of law(j) over the neighbours j of i; law returns a number, a Vec3 or a tuple of such.
   template <class Law>
@@ -45,7 +50,9 @@ struct NeighborView {
   [[gnu::flatten]] auto sum(Group i, const Law& law) const {
     decltype(law(IndexLanes{})) total;
     set_zero(total);
+    assert(i.first >= 0 && i.first % lane_count == 0);
     const NeighborGroup& group = groups[i.first / lane_count];
+    assert(group.longest == *std::max_element(count + i.first, count + i.first + lane_count));
     const Lanes counts = xsimd::to_float(load_indices(count + i.first));
     const std::int32_t* list = group.first;
     for (int k = 0; k < group.longest; ++k, list += lane_count) {

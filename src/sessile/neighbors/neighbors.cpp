@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "sessile/core/bounds.h"
@@ -39,7 +40,9 @@ class Candidates {
       count_ += range.end - range.begin;
     }
     // What fills up the last pack is close to nothing.
-    Lanes(std::numeric_limits<Real>::infinity()).store_unaligned(x_.data() + count_);
+    for (auto* array : {&x_, &y_, &z_}) {
+      Lanes(std::numeric_limits<Real>::infinity()).store_unaligned(array->data() + count_);
+    }
   }
 
   int count() const { return count_; }
@@ -110,6 +113,17 @@ class Found {
   std::int32_t count_[lane_count] = {};
   LaneIndex start_[lane_count] = {};
 };
+
+/// Whether each list holds places among `others` alone, and no particle itself, for assertions.
+bool sound(const NeighborList& lists, std::size_t others, bool same) {
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    for (const std::int32_t j : lists[i]) {
+      if (j < 0 || static_cast<std::size_t>(j) >= others) return false;
+      if (same && static_cast<std::size_t>(j) == i) return false;
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -182,6 +196,7 @@ void NeighborList::build(const SortedPoints& points, const SortedPoints& others,
       start += static_cast<std::size_t>(group.longest) * lane_count;
     }
   });
+  assert(sound(*this, others.position.size(), same));
 }
 
 std::size_t NeighborList::bytes() const {

@@ -1,11 +1,17 @@
 #include "sessile/pressure/conjugate.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sessile {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// <x, A x> over the sum of |a_ii| x_i^2 that rounding alone can make: such pressures push nothing. They are alike
+/// everywhere in a liquid without a surface, where no pressure can mend the density; 3e3 eps^2 was seen there. Of a
+/// column it is about the square of h over its depth.
+constexpr double rounding = 1e5 * std::numeric_limits<Real>::epsilon() * std::numeric_limits<Real>::epsilon();
 
 /// The state of a solve: pressures p with their acceleration a and residual r, and the last direction d.
 struct Conjugate {
@@ -32,6 +38,15 @@ struct Conjugate {
            });
   }
 
+  /// Whether pressures x push, where <x, A x> is `squared`, or rounding is all there is to it.
+  bool push(const Array<Real>& x, double squared) const {
+    const double scale = sum(s.n, [&](int i) {
+      const auto value = static_cast<double>(x[at(i)]);
+      return weight(i) * -static_cast<double>(scratch.diagonal[at(i)]) * value * value;
+    });
+    return squared > rounding * scale;
+  }
+
   Real z(int i) const {
     const bool held = p[at(i)] <= 0 && r[at(i)] < 0;
     return held || !(scratch.diagonal[at(i)] < 0) ? Real(0) : r[at(i)] / -scratch.diagonal[at(i)];
@@ -45,7 +60,7 @@ struct Conjugate {
     });
     pressure_acceleration(s, p, scratch.stress, a);
     const double resistance = squares(a);
-    if (!(resistance > 0)) return;
+    if (!push(p, resistance)) return;
     const double asked = sum(s.n, [&](int i) {
       return weight(i) * static_cast<double>(p[at(i)]) * (static_cast<double>(scratch.advected[at(i)]) - 1);
     });
@@ -91,7 +106,7 @@ struct Conjugate {
     if (!(slope > 0)) slope = turn(0);
     pressure_acceleration(s, d, scratch.stress, a_of_d);
     curvature = squares(a_of_d);
-    if (!(slope > 0) || !(curvature > 0)) return false;
+    if (!(slope > 0) || !push(d, curvature)) return false;
     // p + d >= 0 always; beyond, as far as the first p_i that comes to 0.
     const double nearest = maximum(s.n, [&](int i) {
       return p[at(i)] > 0 ? static_cast<double>(-d[at(i)]) / static_cast<double>(p[at(i)]) : 0.0;

@@ -16,7 +16,7 @@ namespace sessile {
 /// costs what a Jacobi turn costs, as <d, A d> needs the acceleration of d alone. l is the length that was best in the
 /// turn before; where no p_i meets 0 its value does not matter, and the turns are those of the preconditioned method of
 /// Hestenes and Stiefel (1952), with beta by Polak and Ribiere (1969). The start is `pressure` times its best factor,
-/// <p, rho_adv - rho0>/<p, A p>. Internal.
+/// <p, rho_adv - rho0>/<p, A p>. It ends, not converged, where a direction pushes nothing but by rounding. Internal.
 PressureResult improve_by_conjugate_directions(const IterationLimits& limits, const StepView& s, double dt,
                                                Array<Real>& pressure, PressureScratch& scratch);
 
