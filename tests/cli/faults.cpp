@@ -169,6 +169,12 @@ int clock_gettime(clockid_t clock, timespec* now) noexcept {
   return result;
 }
 
+time_t time(time_t* now) noexcept {
+  const time_t result = real<time_t (*)(time_t*)>("time")(nullptr) + (jumps() ? jump() : 0);
+  if (now != nullptr) *now = result;
+  return result;
+}
+
 int gettimeofday(timeval* now, void* zone) noexcept {
   const int result = real<int (*)(timeval*, void*)>("gettimeofday")(now, zone);
   if (result == 0 && jumps()) now->tv_sec += jump();

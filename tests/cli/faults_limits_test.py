@@ -58,7 +58,7 @@ class Memory(Limits):
     MESSAGE = (r"\Asessile: (out of memory: the program has held [\d.]+ MiB, and the system gives it no more; `sessile check SCENE` "
                r"says what a scene takes; a larger spacing takes less, and `ulimit -v` shows a limit|cannot start a thread: )")
 
-    def test_every_allocation_may_fail(self):
+    def test_allocations_may_fail_at_any_time(self):
         name, after, failed = self.write(larger()), 0, 0
         while True:
             code, err = self.attempt(name, "--threads", "2", faults={"CALL": "malloc", "SIZE": 4096, "AFTER": after, "ERROR": 12})
@@ -67,7 +67,7 @@ class Memory(Limits):
                 break
             failed += 1
             after = 2 * after + 1
-        self.assertGreater(failed, 4)
+        self.assertGreater(failed, 7)  # up to 255 large pieces went through: 9 runs of that many and fewer failed
 
     def test_a_limit(self):
         name, codes = self.write(larger()), set()

@@ -144,7 +144,7 @@ TEST(Conjugate, LeavesAloneWhatNoPressureCanMend) {
     cloud.particles.velocity.set(i, {});
   }
   cloud.look_around();
-  for (const Real start : {0, 1}) {
+  for (const Real start : {Real(0), Real(1)}) {
     const Solved s = solved(cloud, Iteration::conjugate, 1e-4, 50, 2, start);
     EXPECT_FALSE(s.result.converged);
     EXPECT_GT(s.result.error, 0.01);

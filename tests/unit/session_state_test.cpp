@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "schedule.h"
+#include "sessile/checkpoint/checkpoint.h"
 #include "sessile/core/error.h"
+#include "sessile/scene/read.h"
+#include "sessile/simulation.h"
 
 namespace sessile::app {
 namespace {
@@ -22,6 +25,26 @@ TEST(SessionState, ComesBackExactly) {
   EXPECT_FALSE(back.frame_due);
   EXPECT_EQ(back.wall_time, state.wall_time);
 }
+
+#ifndef SESSILE_DOUBLE
+// A checkpoint of the first program that wrote any, in single precision, before it watched over its steps. Where the
+// fields of a state change, their format's number has to grow, and this one be read on, or refused with a reason.
+TEST(SessionState, OfTheFirstFormatIsReadOn) {
+  const Checkpoint old = read_checkpoint(SESSILE_TEST_DATA "/format_1.checkpoint");
+  const SessionState session = session_of(old.session);
+  EXPECT_EQ(session.frame_times.size(), 4U);
+  EXPECT_EQ(session.stats_bytes, 3136U);
+  EXPECT_EQ(session.stability.retries, 0);
+  EXPECT_EQ(session.stability.health.compressed_steps, 0);
+  EXPECT_TRUE(session.stability.last_fault.empty());
+  Simulation simulation(read_resolved_text(old.scene_json, "format_1.checkpoint").scene, old.state);
+  EXPECT_EQ(simulation.particles().size(), 31U);
+  EXPECT_EQ(simulation.totals().steps, 6);
+  EXPECT_NEAR(simulation.time(), 0.03, 1e-12);
+  simulation.step();
+  EXPECT_NEAR(simulation.time(), 0.035, 1e-12);
+}
+#endif
 
 TEST(SessionState, RefusesOtherText) {
   for (const char* text : {"", "{", "[1]", "3", R"({"frame_times": ["x"]})", R"({"stats_bytes": -1})"}) {
