@@ -83,8 +83,8 @@ void Checkpoints::write(const Scene& scene, SimulationState state, const std::st
   if (fs::is_directory(surfaces)) sync_folder(surfaces);
   const BuildInfo build = build_info();
   const double time = state.time;
-  write_checkpoint(folder_ / fmt::format("{}{:09}{}", prefix, state.totals.steps, suffix),
-                   {build.version, build.isa, to_json(scene), session, std::move(state)});
+  const fs::path file = folder_ / fmt::format("{}{:09}{}", prefix, state.totals.steps, suffix);
+  write_checkpoint(file, {build.version, build.isa, to_json(scene), session, std::move(state)});
   last_ = Clock::now();
   if (schedule_) schedule_->done(time);
   const std::vector<Kept> all = list(folder_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,9 +31,7 @@ std::string unknown_command(const CLI::App& program, int argc, char** argv) {
   return "unknown command " + sessile::in_quotes(word) + sessile::spelling_hint(word, commands, "commands");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int sessile_program(int argc, char** argv) {
   using namespace sessile;
   app::prepare_process();
   if (!app::start(argv)) return app::bad_input;
@@ -84,4 +83,15 @@ int main(int argc, char** argv) {
     return app::run_failed;
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return sessile_program(argc, argv);
+  } catch (const std::exception& e) {  // before there is a command to run
+    std::fprintf(stderr, "sessile: %s\n", e.what());
+    return sessile::app::run_failed;
+  }
 }

@@ -1,13 +1,13 @@
 #include "signals.h"
 
 #include <fcntl.h>
-#include <signal.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
+#include <ctime>
 #include <mutex>
 
 namespace sessile::app {

@@ -68,7 +68,7 @@ std::string factor(const Comparison& comparison, const RunRecord& run) {
 
 /// Those of the divergence solve behind a plus, where there is one.
 std::string iterations(const RunRecord& run) {
-  const std::string text = fmt::format("{:.1f}", run.iterations_per_step);
+  std::string text = fmt::format("{:.1f}", run.iterations_per_step);
   if (run.divergence_iterations == 0 || run.steps == 0) return text;
   return text +
          fmt::format(" + {:.1f}", static_cast<double>(run.divergence_iterations) / static_cast<double>(run.steps));

@@ -120,7 +120,7 @@ RunRecord run_or_reuse(const ResolvedScene& resolved, const TrialSettings& setti
     } catch (const RunError&) {  // a method that fails has its place in the report; what else fails is not its fault
     }
   }
-  const RunRecord record = observer.record(result, resolved);
+  RunRecord record = observer.record(result, resolved);
   write_whole(verdict, verdict_json(record));
   tell(settings, label, ending(record, false));
   return record;

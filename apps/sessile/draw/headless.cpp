@@ -81,7 +81,7 @@ struct HeadlessContext::Impl {
     EGLint major = 0, minor = 0;
     if (eglInitialize(on, &major, &minor) == EGL_FALSE) return "its driver does not start";
     display = on;
-    const std::string reason = make_current();
+    std::string reason = make_current();
     if (!reason.empty()) close();
     return reason;
   }

@@ -20,7 +20,8 @@ SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& results, const Sce
       schedule_(interval_of(scene.output), times.empty() ? std::nullopt : std::optional(times.back())),
       times_(std::move(times)) {
   if (!asked_ || asked_->formats.empty()) return;
-  SurfacePlan plan{*asked_, asked_->formats, scene.spacing, 1 / interval_of(scene.output)};
+  SurfacePlan plan{static_cast<const SurfaceSettings&>(*asked_), asked_->formats, scene.spacing,
+                   1 / interval_of(scene.output)};
   folder_.emplace(results / surface_folder_name, results, scene, std::move(plan), times_.size());
 }
 

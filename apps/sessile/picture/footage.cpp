@@ -22,7 +22,7 @@ bool wants_surface(const PictureOptions& options) { return options.look == draw:
 
 /// Those that the scene's own surfaces have; the usual ones without any.
 SurfaceSettings surface_settings(const Scene& scene) {
-  return scene.output.surface ? SurfaceSettings(*scene.output.surface) : SurfaceSettings();
+  return scene.output.surface ? static_cast<const SurfaceSettings&>(*scene.output.surface) : SurfaceSettings();
 }
 
 /// Time of each frame that a run of the scene would write.

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 fs::path find_script() {
   const fs::path place = installed_in();
   for (const char* folder : {"share/sessile/blender", "../../tools/blender"}) {
-    const fs::path script = (place / folder / "render.py").lexically_normal();
+    fs::path script = (place / folder / "render.py").lexically_normal();
     std::error_code error;
     if (fs::exists(script, error)) return script;
   }

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/signalfd.h>
 #include <sys/wait.h>
@@ -12,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -164,7 +164,7 @@ std::filesystem::path find_program(const std::string& name) {
   std::string_view rest = list == nullptr ? "" : list;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(':'), rest.size());
-    const std::filesystem::path file = std::filesystem::path(rest.substr(0, end)) / name;
+    std::filesystem::path file = std::filesystem::path(rest.substr(0, end)) / name;
     std::error_code error;
     if (access(file.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(file, error)) return file;
     rest.remove_prefix(std::min(end + 1, rest.size()));

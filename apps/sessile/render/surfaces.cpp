@@ -74,7 +74,7 @@ double true_rate(const Surfaces& surfaces) {
   const double rate = 1 / steps[steps.size() / 2];
   if (!(rate >= slowest && rate <= fastest)) return usual;
   // Frames fall on steps, so their distance is the asked one but for a hundredth or so.
-  const double whole = static_cast<double>(static_cast<int>(rate + 0.5));
+  const double whole = std::round(rate);
   return std::abs(rate - whole) < 0.05 * whole ? whole : rate;
 }
 

@@ -35,7 +35,7 @@ void lower_by_groups(MemoryLimit& limit, const fs::path& root, fs::path group, c
 }  // namespace
 
 double estimated_bytes(double particles, double support) {
-  constexpr double fields = 450 / sizeof(float) * sizeof(Real);  // arrays, and copies of them in frames on their way
+  constexpr double fields = 450.0 * sizeof(Real) / sizeof(float);  // arrays, and copies of them in frames on their way
   constexpr double fill = 1.15;  // lists are as long as the longest of their group, and grow by eighths
   const double neighbors = 4 * std::numbers::pi / 3 * support * support * support;
   return particles * (fields + fill * sizeof(std::int32_t) * neighbors);
