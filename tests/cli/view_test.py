@@ -9,6 +9,7 @@ import time
 
 from png import pixels, unpacked
 from sessile_cli import BAD_INPUT, DONE, FAILED, CliTest, tiny, unittest
+from stability_test import crushing, thrown
 
 WAIT = 60  # seconds for what should take one or two: the machine may be busy
 
@@ -267,6 +268,15 @@ class View(CliTest):
         time.sleep(1)
         self.still_at(0)  # the last good moment
         self.quit()
+
+    def test_opens_what_a_run_that_went_unstable_kept(self):
+        for scene in (thrown(), crushing()):
+            self.call("run", self.write(scene), "-o", "out", "--progress", "none", code=FAILED)
+            self.open("out/fault")
+            good = self.still()
+            self.press("period")
+            self.until("the faulty state", lambda: self.still().name != good.name)
+            self.quit()
 
     def test_ends_when_its_window_is_closed(self):
         self.open(self.write(tiny()), playing=True)
