@@ -45,6 +45,4 @@ bool forget_peak_memory() {
   return out.good();
 }
 
-std::size_t peak_resident_memory() { return kilobytes("/proc/self/status", "VmHWM:"); }
-
 }  // namespace sessile::app

@@ -15,11 +15,8 @@ std::size_t available_memory();
 /// Memory that this program holds now [bytes]; 0 where the system does not tell.
 std::size_t resident_memory();
 
-/// Forgets the most memory that this program has held: the next peak_resident_memory() is of what comes after. False
-/// where the system cannot.
+/// Forgets the most memory that this program has held: the next peak_memory() is of what comes after. False where the
+/// system cannot.
 bool forget_peak_memory();
-
-/// The most memory that this program has held since then [bytes]; 0 where the system does not tell.
-std::size_t peak_resident_memory();
 
 }  // namespace sessile::app

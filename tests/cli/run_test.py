@@ -17,6 +17,11 @@ class Results(CliTest):
         self.assertEqual(self.names(), ["checkpoints"] + frames + ["frames.pvd", "scene.json", "solids.ply", "solids.vtp", "stats.csv", "summary.json"])
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["out", "s.json"])
 
+    def test_peak_memory_is_the_runs_own(self):
+        ballast = b"x" * (400 << 20)  # of the process that starts it
+        self.call("run", "s.json", "-o", "out", "--progress", "none")
+        self.assertLess(self.summary()["memory_bytes"]["peak"], len(ballast) // 2)
+
     def test_frames_hold_the_particles(self):
         for k in range(5):
             points, names, time = read_vtp(self.folder / f"out/frame_{k:06d}.vtp")

@@ -6,6 +6,7 @@
 #include "bench/context.h"
 #include "bench/scenes.h"
 #include "machine.h"
+#include "sessile/output/summary.h"
 #include "sessile/simulation.h"
 
 namespace sessile::app::bench {
@@ -50,7 +51,7 @@ void bench_block(Context& context, const std::string& name, const std::string& t
     }
     outside.samples.push_back(1e3 * (wall - (end.sum() - start.sum())) / steps);
   }
-  const std::size_t peak = peak_resident_memory();
+  const std::size_t peak = peak_memory();
 
   const auto n = static_cast<double>(simulation.particles().size());
   report.add(std::move(whole));
