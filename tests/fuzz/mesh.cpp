@@ -24,7 +24,8 @@ void use(const TriangleSoup& soup) {
     for (const auto corner : triangle) must(corner < soup.corners.size(), "a triangle of a corner that there is not");
   }
   for (const Vec3d& p : soup.corners) {
-    if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 1e12)) return;  // load_mesh() refuses it
+    // load_mesh() refuses it
+    if (!std::isfinite(p.x + p.y + p.z) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >= 1e12) return;
   }
   const TriangleMesh mesh = make_mesh(soup.corners, soup.triangles);
   must(mesh.vertices.size() <= soup.corners.size(), "joining made vertices");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <set>
 #include <tuple>
 
@@ -205,6 +206,29 @@ TEST(Surface, RoundShapesAreEven) {
   };
   even(Sphere{1}, 4 * pi);
   even(Cylinder{0.5, 2}, 2 * pi * 0.5 * 2.5);
+}
+
+// What memory is asked for: never too little, and not much too much.
+TEST(Surface, IsEstimatedFromAbove) {
+  std::mt19937 random(5);
+  const auto between = [&](double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution<double>(0, 1)(random));
+  };
+  for (int turn = 0; turn < 300; ++turn) {
+    const auto edge = [&] { return between(0.01, turn % 2 == 0 ? 1 : 5); };
+    for (const SolidShape& shape : {SolidShape(Box{{edge(), edge(), edge()}}),
+                                    SolidShape(Container{{edge(), edge(), edge()}}), SolidShape(Plate{edge(), edge()}),
+                                    SolidShape(Sphere{edge() / 2}), SolidShape(Cylinder{edge() / 2, edge()})}) {
+      Solid solid = solid_of(shape);
+      solid.layers = 1 + turn % 8;
+      const double estimate = estimate_surface(solid, 0.1);
+      const auto samples = static_cast<double>(sample_surface(solid, 0.1).size());
+      EXPECT_GE(estimate, samples) << "shape " << shape.index() << ", layers " << solid.layers;
+      if (solid.layers == 1 && samples > 500) {
+        EXPECT_LT(estimate, 1.2 * samples) << "shape " << shape.index();
+      }
+    }
+  }
 }
 
 TEST(Surface, SpacingOfItsOwn) {
