@@ -68,7 +68,7 @@ class OddFiles(CliTest):
 
 
 class Links(CliTest):
-    def test_links_in_the_output_folder_are_replaced(self):
+    def test_links_and_pipes_in_the_output_folder_are_replaced(self):
         self.write(tiny())
         precious = self.folder / "precious"
         precious.write_text("mine")
@@ -77,9 +77,11 @@ class Links(CliTest):
         for name in ("frame_000001.ply", ".frame_000001.ply.part", "frame_000000.vtp", "stats.csv", "scene.json",
                      ".scene.json.part", "summary.json", "frames.pvd", "solids.vtp"):
             os.symlink(precious, out / name)
-        self.call("run", "s.json", "-o", "out", "--progress", "none")
+        for name in ("frame_000002.ply", ".frame_000002.vtp.part", ".summary.json.part"):
+            os.mkfifo(out / name)  # to be opened for writing it would wait for a reader
+        self.call("run", "s.json", "-o", "out", "--progress", "none", timeout=30)
         self.assertEqual(precious.read_text(), "mine")
-        self.assertEqual([path.name for path in out.iterdir() if path.is_symlink()], [])
+        self.assertEqual([path.name for path in out.iterdir() if path.is_symlink() or path.is_fifo()], [])
 
 
 class HugeCounts(CliTest):

@@ -30,15 +30,11 @@ int open_descriptor(const fs::path& path, int flags) {
   return descriptor;
 }
 
-/// Opens a file that is new: what stands there, a link of either kind too, gives way and is not written into. Devices
-/// and pipes are opened as they are. Returns -1 with errno.
+/// Opens a file that is new: what stands there, a link of either kind or a pipe too, gives way and is not written into.
+/// Returns -1 with errno.
 int open_anew(const fs::path& path, int flags) {
-  struct stat there {};
-  const bool known = ::lstat(path.c_str(), &there) == 0;
-  const bool gives_way = known && (S_ISLNK(there.st_mode) || S_ISREG(there.st_mode));
-  if (gives_way && ::unlink(path.c_str()) != 0) return -1;
-  const int fresh = known && !gives_way ? O_TRUNC : O_EXCL;
-  return open_descriptor(path, O_WRONLY | O_CREAT | O_NOFOLLOW | fresh | flags);
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) return -1;
+  return open_descriptor(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_EXCL | flags);
 }
 
 /// Writes all bytes. Returns 0 or the error.
