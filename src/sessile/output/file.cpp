@@ -31,10 +31,12 @@ int open_descriptor(const fs::path& path, int flags) {
 }
 
 /// Opens a file that is new: what stands there, a link of either kind or a pipe too, gives way and is not written into.
-/// Returns -1 with errno.
+/// A device is opened as it is. Returns -1 with errno.
 int open_anew(const fs::path& path, int flags) {
-  if (::unlink(path.c_str()) != 0 && errno != ENOENT) return -1;
-  return open_descriptor(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_EXCL | flags);
+  struct stat there {};
+  const bool device = ::lstat(path.c_str(), &there) == 0 && (S_ISCHR(there.st_mode) || S_ISBLK(there.st_mode));
+  if (!device && ::unlink(path.c_str()) != 0 && errno != ENOENT) return -1;
+  return open_descriptor(path, O_WRONLY | O_CREAT | O_NOFOLLOW | (device ? 0 : O_EXCL) | flags);
 }
 
 /// Writes all bytes. Returns 0 or the error.
