@@ -5,6 +5,7 @@
 #include <chrono>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 #include "advice.h"
 #include "checkpoints.h"
@@ -13,12 +14,21 @@
 #include "prepare.h"
 #include "recorder.h"
 #include "sessile/core/error.h"
+#include "sessile/measure/diagnostics.h"
 #include "sessile/scene/describe.h"
 #include "sessile/version.h"
 #include "stability.h"
 
 namespace sessile::app {
 namespace {
+
+bool promises_density(const Pressure& method) {
+  return std::visit(
+      [](const auto& solver) {
+        return requires { solver.error; };
+      },
+      method);
+}
 
 /// Says once what the user should know while it happens.
 class Warnings {
@@ -37,10 +47,24 @@ class Warnings {
                       "of {:.3g} %",
                       simulation.time(), last.iterations, 100 * last.predicted_error));
     }
+    if (!said_soft_ && !promises_density(simulation.scene().pressure)) look_at_density(simulation, progress);
   }
 
  private:
-  bool said_overruled_ = false, said_unconverged_ = false;
+  /// A solver that has no error to reach compresses the liquid by what its speed of sound allows. What a scene begins
+  /// with is not its doing.
+  void look_at_density(const Simulation& simulation, Progress& progress) {
+    if (simulation.totals().steps < simulation.scene().stability.density_steps) return;
+    const double average = compression(simulation.density()).average;
+    if (average <= simulation.scene().stability.density_limit) return;
+    said_soft_ = true;
+    progress.warn(
+        fmt::format("at {:.4g} s the liquid is compressed by {:.3g} % on average: a greater pressure.sound_speed "
+                    "compresses it less",
+                    simulation.time(), 100 * average));
+  }
+
+  bool said_overruled_ = false, said_unconverged_ = false, said_soft_ = false;
 };
 
 using Clock = std::chrono::steady_clock;

@@ -105,6 +105,17 @@ class Stops(Stability):
         self.call("run", "--resume", "out/fault", "--set", "time.fixed_dt=0.002", "--progress", "none")
         self.assertEqual(self.summary("out/fault")["status"], "done")
 
+    def test_not_where_wcsph_compresses_the_liquid_but_says_so(self):
+        scene = tiny(time={"end": 0.6, "fixed_dt": 0.005}, forces=[], pressure={"type": "wcsph", "sound_speed": 5},
+                     bodies=[{"shape": {"type": "box", "size": [0.8, 0.8, 0.8]}, "placement": {"position": [0, 0, 0.5]}}],
+                     solids=[{"shape": {"type": "container", "size": [0.9, 0.9, 2]}, "placement": {"position": [0, 0, 1]}}])
+        _, err = self.run_scene(scene)
+        self.assertRegex(err, r"(?m)^warning: at [\d.]+ s the liquid is compressed by [\d.]+ % on average: a greater "
+                              r"pressure\.sound_speed compresses it less$")
+        scene["pressure"]["sound_speed"] = 50
+        scene["time"] = {"end": 0.1, "fixed_dt": 0.0005}
+        self.assertNotIn("compressed", self.run_scene(scene)[1])
+
     def test_when_the_liquid_stays_compressed(self):
         # A periodic block has nowhere to go: no pressure takes the 5 % that its masses are too great.
         box = {"min": [-0.4, -0.4, -0.4], "max": [0.4, 0.4, 0.4], "x": "periodic", "y": "periodic", "z": "periodic"}

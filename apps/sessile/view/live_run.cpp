@@ -109,8 +109,8 @@ void LiveRun::obey(Orders orders) {
   if (orders.play && !*orders.play) {
     steps_left_ = 0;
     if (state_ == LiveState::playing) {
-      settle(LiveState::paused);
       hand_over(true);
+      settle(LiveState::paused);
     }
   }
   if (state_ == LiveState::failed) return;
@@ -163,8 +163,8 @@ void LiveRun::advance() {
   }
   if (Clock::now() - due() > most_behind) set_pace();
   const bool ends = state_ == LiveState::playing && simulation_.finished();
-  if (ends) settle(LiveState::ended);
   hand_over(single || ends);
+  if (ends) settle(LiveState::ended);  // only now: who knows that it has ended has its last moment
 }
 
 /// Copies what there is to see. Between two steps that follow each other only if the last copy was taken, or is stale.
