@@ -115,7 +115,7 @@ class Found {
 };
 
 /// Whether each list holds places among `others` alone, and no particle itself, for assertions.
-bool sound(const NeighborList& lists, std::size_t others, bool same) {
+[[maybe_unused]] bool sound(const NeighborList& lists, std::size_t others, bool same) {
   for (std::size_t i = 0; i < lists.size(); ++i) {
     for (const std::int32_t j : lists[i]) {
       if (j < 0 || static_cast<std::size_t>(j) >= others) return false;
