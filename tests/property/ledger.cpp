@@ -11,8 +11,10 @@ namespace {
 
 constexpr std::size_t most_faults = 10;
 constexpr double most_compression = 0.05;  // after a step, over rest density; errors asked for are up to 0.01
-// In double precision the sums made here round as those that are judged do.
-constexpr double rounding = (sizeof(Real) == sizeof(double) ? 8 : 1) * std::numeric_limits<Real>::epsilon();
+/// Of numbers as the simulation has them, and of the sums in double that are made of n of them here.
+double rounding(std::size_t n) {
+  return std::numeric_limits<Real>::epsilon() + static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+}
 
 bool equal_masses(const Particles& particles) {
   const auto& mass = particles.mass;
@@ -177,7 +179,7 @@ void Ledger::check_motion(const Before& before) {
       const Emitter& emitter = simulation_.scene().emitters[0];
       change -= static_cast<double>(now.emitted - before.totals.emitted) * emitter.mass_factor * emitter.velocity;
     }
-    const double share = length(change) / (rounding * scale);
+    const double share = length(change) / (rounding(p.size()) * scale);
     worst_momentum_ = std::max(worst_momentum_, share);
     if (!(share <= 1)) {
       fault(fmt::format("momentum is off by {:g} of {:g}, {:g} times its tolerance", length(change), scale, share));
@@ -186,7 +188,7 @@ void Ledger::check_motion(const Before& before) {
   energy_scale_ += units.particle_mass() * squares;
   energy *= units.particle_mass();
   const double unexplained = std::abs(now.energy.kinetic() - energy);
-  const double share = unexplained / (rounding * energy_scale_);
+  const double share = unexplained / (rounding(p.size()) * energy_scale_);
   worst_energy_ = std::max(worst_energy_, share);
   if (!(share <= 1)) {
     fault(fmt::format("kinetic energy {:g} J, its account says {:g} J: {:g} times the tolerance", energy,
