@@ -71,8 +71,8 @@ bool Checkpoints::due(const Simulation& simulation) const {
   return Clock::now() - last_ >= pause_ || (schedule_ && schedule_->due(simulation.time()));
 }
 
-void Checkpoints::write(const Simulation& simulation, const std::string& session) {
-  write(simulation.scene(), simulation.state(), session);
+void Checkpoints::served(double time) {
+  if (schedule_) schedule_->done(time);
 }
 
 void Checkpoints::write(const Scene& scene, SimulationState state, const std::string& session) {
@@ -82,11 +82,9 @@ void Checkpoints::write(const Scene& scene, SimulationState state, const std::st
   const fs::path surfaces = folder_.parent_path() / surface_folder_name;
   if (fs::is_directory(surfaces)) sync_folder(surfaces);
   const BuildInfo build = build_info();
-  const double time = state.time;
   const fs::path file = folder_ / fmt::format("{}{:09}{}", prefix, state.totals.steps, suffix);
   write_checkpoint(file, {build.version, build.isa, to_json(scene), session, std::move(state)});
   last_ = Clock::now();
-  if (schedule_) schedule_->done(time);
   const std::vector<Kept> all = list(folder_);
   for (std::size_t k = keep_; k < all.size(); ++k) remove_file(all[k].file);
 }

@@ -26,8 +26,10 @@ class Checkpoints {
   bool due(const Simulation& simulation) const;
 
   /// Writes one, and takes out those that are no longer kept. Throws FileError.
-  void write(const Simulation& simulation, const std::string& session);
   void write(const Scene& scene, SimulationState state, const std::string& session);
+
+  /// Notes that the one that was due at this time has been written: it may hold an earlier state [s].
+  void served(double time);
 
   bool wanted() const { return keep_ > 0; }
 

@@ -62,7 +62,7 @@ void write_fault_dump(const fs::path& folder, const Simulation& good, const Snap
   create_output_folder(folder);
   const Scene scene = scene_of_dump(good.scene());
   write_whole(folder / "scene.json", to_json(scene));
-  write_whole(folder / "fault.json", fault_json(fault, advice) + "\n");
+  write_whole(folder / fault_file_name, fault_json(fault, advice) + "\n");
   FrameWriter frames(folder, scene.output.formats);
   frames.write_solids(take_solids(good.walls()));
   frames.push(take_snapshot(good, columns()));
@@ -82,13 +82,12 @@ void write_fault_dump(const fs::path& folder, const Simulation& good, const Snap
 
 void remove_fault_dump(const fs::path& folder) {
   std::error_code error;
-  if (!fs::is_directory(fs::symlink_status(folder, error))) return;  // a link is not ours to follow
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return;              // a link is not ours to follow
+  if (!fs::exists(fs::symlink_status(folder / fault_file_name, error))) return;  // somebody's results, no dump
   fresh_folder(folder);
-  for (const char* name : {"stats.csv", "fault.json"}) {
-    if (!fs::remove(folder / name, error) && error) {
-      throw FileError(fmt::format("{}: cannot remove this result of an earlier run: {}", (folder / name).string(),
-                                  error.message()));
-    }
+  if (!fs::remove(folder / "stats.csv", error) && error) {
+    throw FileError(fmt::format("{}: cannot remove this result of an earlier run: {}", (folder / "stats.csv").string(),
+                                error.message()));
   }
   if (fs::is_empty(folder, error)) fs::remove(folder, error);
 }

@@ -13,6 +13,9 @@ namespace sessile::app {
 /// Of the folder in a folder of results that shows how a run went unstable.
 inline constexpr std::string_view fault_folder_name = "fault";
 
+/// What tells such a folder from other results. A run that goes on there, or is written there, takes it out.
+inline constexpr std::string_view fault_file_name = "fault.json";
+
 /// The simulation right after the step that failed, as far as its numbers are finite: a particle that got no finite
 /// place stands where it stood before, and other numbers that are not finite are 0.
 Snapshot faulty_frame(const Simulation& simulation, const RunFault& fault);
@@ -23,7 +26,8 @@ Snapshot faulty_frame(const Simulation& simulation, const RunFault& fault);
 void write_fault_dump(const std::filesystem::path& folder, const Simulation& good, const Snapshot& faulty,
                       const RunFault& fault, const std::string& advice);
 
-/// Removes the folder that an earlier run left; other files in it stay. Throws FileError.
+/// Removes the folder that an earlier run left; other files in it stay, and so does a folder that is no such dump, or
+/// one that a run has gone on in. Throws FileError.
 void remove_fault_dump(const std::filesystem::path& folder);
 
 }  // namespace sessile::app

@@ -60,7 +60,7 @@ SessionState Recorder::settle() {
   SessionState state;
   output_seconds_ += seconds_of([&] {
     state.frame_times = frames_.settle();
-    state.surface_times = surfaces_.times();
+    state.surface_times = surfaces_.settle();
     state.stats_bytes = stats_.settle();
   });
   state.stats_time = stats_schedule_.last();

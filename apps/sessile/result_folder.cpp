@@ -50,7 +50,9 @@ struct Name {
 
 /// Whether a file is of an earlier run.
 bool is_result(const Name& file) {
-  if (file.name == "frames.pvd" || file.name == "scene.json" || file.name == "summary.json") return true;
+  if (file.name == fault_file_name || file.name == "frames.pvd" || file.name == "scene.json" ||
+      file.name == "summary.json")
+    return true;
   return file.in_known_format() && (file.name.starts_with("frame_") || file.name.starts_with("solids."));
 }
 
@@ -83,7 +85,7 @@ const fs::path& rewound_folder(const fs::path& folder, const SessionState& state
   remove_fault_dump(folder / fault_folder_name);
   const auto frames = static_cast<std::int64_t>(state.frame_times.size());
   remove_files(folder, [&](const Name& file) {
-    if (file.name == "summary.json" || (file.half && is_result(file))) return true;
+    if (file.name == "summary.json" || file.name == fault_file_name || (file.half && is_result(file))) return true;
     return file.frame().value_or(-1) >= frames;
   });
   return folder;

@@ -3,18 +3,21 @@
 #include <fmt/format.h>
 #include <json/json.h>
 
-#include <fstream>
+#include <memory>
 #include <string_view>
 #include <utility>
 
 #include "checkpoints.h"
 #include "sessile/core/error.h"
 #include "sessile/output/check.h"
+#include "sessile/scene/input_file.h"
 #include "sessile/scene/tuning.h"
 #include "sessile/version.h"
 
 namespace sessile::app {
 namespace {
+
+constexpr std::uintmax_t largest_summary = std::uintmax_t{16} << 20;  // bytes
 
 /// Parameters that may change between two steps, but not within one folder of results.
 bool shapes_the_files(std::string_view path) {
@@ -67,11 +70,18 @@ Resumable open_run(const ResumeOptions& options) {
   return {std::move(simulation), std::move(session), std::move(notes)};
 }
 
-bool is_complete(const std::filesystem::path& results) {
-  std::ifstream file(results / "summary.json");
-  Json::Value summary;
-  return Json::parseFromStream(Json::CharReaderBuilder(), file, &summary, nullptr) && summary.isObject() &&
-         summary["status"] == std::string(word(RunStatus::done));
+bool is_complete(const std::filesystem::path& results, double end) {
+  try {
+    const std::string text = read_input(results / "summary.json", largest_summary);
+    const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
+    Json::Value summary;
+    return reader->parse(text.data(), text.data() + text.size(), &summary, nullptr) && summary.isObject() &&
+           summary["status"] == std::string(word(RunStatus::done)) && summary["simulated_time_s"].asDouble() >= end;
+  } catch (const FileError&) {
+    return false;
+  } catch (const Json::Exception&) {
+    return false;
+  }
 }
 
 void drop_newer_checkpoints(const ResumeOptions& options, const Resumable& run) {

@@ -27,8 +27,8 @@ struct Resumable {
 /// Throws SceneError for what may not change, and FileError when there is no checkpoint to go on from.
 Resumable open_run(const ResumeOptions& options);
 
-/// Whether the run in this folder has come to its end and written all that belongs to it.
-bool is_complete(const std::filesystem::path& results);
+/// Whether the run in this folder has come to this end [s] and written all that belongs to it.
+bool is_complete(const std::filesystem::path& results, double end);
 
 /// Takes checkpoints away that are newer than where a run goes on from. Throws FileError.
 void drop_newer_checkpoints(const ResumeOptions& options, const Resumable& run);

@@ -36,16 +36,16 @@ void print_end(const SessionResult& result, const std::string& folder) {
 }
 
 /// A run that ended for a fault of the machine: what can be done about that, and then goes on where it was.
-int say_failure(const std::exception& fault, const std::string& folder) {
+int say_failure(const std::exception& fault, const std::string& folder, bool begun) {
   tell(fault);
   const bool own_fault = dynamic_cast<const RunError*>(&fault) != nullptr;  // it would come again
-  if (!own_fault && has_checkpoints(folder))
+  if (begun && !own_fault && has_checkpoints(folder))
     say(stderr, fmt::format("then go on with: sessile run --resume {}\n", folder));
   return run_failed;
 }
 
-/// Runs, and says how to go on where a run fails that had begun.
-int attempt(const std::string& folder, const std::function<int()>& work) {
+/// Runs, and says how to go on where a run fails that had begun: before, checkpoints in the folder are not its own.
+int attempt(const std::string& folder, const bool& begun, const std::function<int()>& work) {
   try {
     return work();
   } catch (const SceneError&) {
@@ -53,7 +53,7 @@ int attempt(const std::string& folder, const std::function<int()>& work) {
   } catch (const FolderInUse&) {
     throw;
   } catch (const std::exception& e) {
-    return say_failure(e, folder);
+    return say_failure(e, folder, begun);
   }
 }
 
@@ -72,7 +72,12 @@ int run(RunOptions options) {
   apply_run_options(options, "");
   const ResolvedScene resolved = read_runnable_scene(options.scene, options.overrides, options.places);
   const SessionOptions session{options.scene, options.folder, progress_style(options.progress), ""};
-  return attempt(options.folder, [&] { return say_end(run_session(resolved, session), options); });
+  bool begun = false;
+  return attempt(options.folder, begun, [&] {
+    const SessionResult result = run_session(resolved, session);
+    begun = true;
+    return say_end(result, options);
+  });
 }
 
 int resume(RunOptions options, const std::string& folder, std::optional<double> at) {
@@ -85,14 +90,16 @@ int resume(RunOptions options, const std::string& folder, std::optional<double> 
   if (options.progress != "none") {
     for (const std::string& note : run.notes) say(stderr, "warning: " + note + "\n");
   }
-  if (run.simulation.finished() && is_complete(folder)) {
-    say(stderr, fmt::format("{} is at {:.4g} s, its end; --until lets it go on\n", folder, run.simulation.time()));
+  const double end = run.simulation.scene().time.end;
+  if ((!at || run.simulation.finished()) && is_complete(folder, end)) {
+    say(stderr, fmt::format("{} is at {:.4g} s, its end; --until lets it go on\n", folder, end));
     return done;
   }
   drop_newer_checkpoints(wanted, run);
   const SessionOptions session{folder, folder, progress_style(options.progress), ""};
-  return attempt(
-      folder, [&] { return say_end(resume_session(std::move(run.simulation), session, run.before, *lock), options); });
+  return attempt(folder, true, [&] {
+    return say_end(resume_session(std::move(run.simulation), session, run.before, *lock), options);
+  });
 }
 
 }  // namespace

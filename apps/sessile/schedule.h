@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -25,7 +26,7 @@ class Schedule {
   /// Notes that it has been done for the state of this time [s].
   void done(double time) {
     last_ = time;
-    if (interval_ > 0) served_ = static_cast<std::int64_t>(time / interval_ + 1e-6) + 1;
+    if (interval_ > 0) served_ = static_cast<std::int64_t>(std::min(time / interval_ + 1e-6, most)) + 1;
   }
 
   /// The time of the state it was last done for [s].
@@ -35,6 +36,8 @@ class Schedule {
   bool is_done(double time) const { return last_ >= time; }
 
  private:
+  static constexpr double most = 9e15;  // intervals: beyond, each state is due
+
   double interval_;
   double last_ = -1;
   std::int64_t served_ = 0;  // intervals

@@ -9,6 +9,7 @@
 
 #include "advice.h"
 #include "checkpoints.h"
+#include "fault_dump.h"
 #include "folder_lock.h"
 #include "mesh/surface_folder.h"
 #include "prepare.h"
@@ -77,14 +78,16 @@ CheckpointOutput checkpoints_of(const Scene& scene, const SessionOptions& option
   return asked;
 }
 
-/// That the folder has gone tells more than what could not be written into it.
-std::pair<std::exception_ptr, std::string> why_gone(const FolderLock& lock) {
+/// That the folder has gone tells more than what could not be written into it; a fault of the run is told besides.
+std::pair<std::exception_ptr, std::string> why_gone(const FolderLock& lock, const std::exception& fault) {
   try {
     lock.check();
   } catch (const FileError& e) {
-    return {std::current_exception(), e.what()};
+    const bool own_fault = dynamic_cast<const RunError*>(&fault) != nullptr;
+    const std::string message = own_fault ? fmt::format("{}. Besides, {}", fault.what(), e.what()) : e.what();
+    return {std::make_exception_ptr(FileError(message, e.reason)), message};
   }
-  return {};
+  return {std::current_exception(), fault.what()};  // it is back
 }
 
 /// `start`: of the wall time that counts.
@@ -94,6 +97,7 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
   const auto wall = [&] { return earlier + since(start); };
   SessionResult result;
   refuse_if_in_use(options.folder / surface_folder_name);  // by `sessile mesh`: a run takes those surfaces out
+  refuse_if_in_use(options.folder / fault_folder_name);    // by a run that goes on from that state
   std::optional<Recorder> recorder(std::in_place, options.folder, simulation, before);
   Stability stability(simulation.scene(), options.checkpoints, before);
   Checkpoints checkpoints(options.folder, checkpoints_of(simulation.scene(), options),
@@ -107,9 +111,11 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
   const auto keep_state = [&] {
     if (stability.goes_back()) {
       const Stability::Kept& good = stability.good();
-      return checkpoints.write(stability.scene(), good.state, session_json(good.records));
+      checkpoints.write(stability.scene(), good.state, session_json(good.records));
+    } else {
+      checkpoints.write(stability.scene(), simulation.state(), session_json(records()));
     }
-    checkpoints.write(stability.scene(), simulation.state(), session_json(records()));
+    checkpoints.served(simulation.time());
   };
   const auto keep_good_state = [&] { stability.keep(simulation, stability.goes_back() ? records() : SessionState{}); };
   Progress progress(options.progress, options.name, simulation);
@@ -143,7 +149,7 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
     // What has been written stays good; the summary says how it ended, if the disk still takes it.
     result.error = std::current_exception();
     result.message = sentence(e);
-    if (!lock.in_place()) std::tie(result.error, result.message) = why_gone(lock);
+    if (!lock.in_place()) std::tie(result.error, result.message) = why_gone(lock, e);
     facts.status = result.status = RunStatus::failed;
     facts.message = result.message;
     facts.wall_time = wall();
@@ -166,7 +172,8 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
   result.wall = wall();
   result.frames = recorder ? recorder->frames() : 0;
   result.facts = simulation_facts(simulation);
-  if (const std::string kept = stability.dump(options.folder, simulation); !kept.empty()) {
+  // Not into a folder that has taken the place of the run's.
+  if (const std::string kept = lock.in_place() ? stability.dump(options.folder, simulation) : ""; !kept.empty()) {
     result.error = std::make_exception_ptr(RunError(result.message + ".\n" + kept));
   }
   return result;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "advice.h"
 #include "fault_dump.h"
 #include "sessile/core/error.h"
 
@@ -67,7 +68,7 @@ bool Stability::step(Simulation& simulation, Progress& progress) {
     simulation.step();
     found = health_.look(simulation);
   } catch (const RunError&) {
-    if (simulation.health().not_finite.count == 0) throw;  // of another kind: shorter steps do not help
+    if (simulation.health().not_finite.count == 0) throw;  // of another kind, which says itself what helps
     found = health_.look(simulation);
   }
   state_.health = health_.state();
@@ -139,8 +140,8 @@ std::string Stability::dump(const std::filesystem::path& results, Simulation& si
     simulation.retune(scene_);
     simulation.go_back_to(good().state);
     write_fault_dump(folder, simulation, faulty_, *fault_, advice(*fault_, settings_));
-  } catch (const Error& e) {
-    return fmt::format("The state of the fault could not be kept: {}", e.what());
+  } catch (const std::exception& e) {
+    return fmt::format("The state of the fault could not be kept: {}", sentence(e));
   }
   return fmt::format("{} holds the last good state, of {:g} s, and the faulty one: `sessile view {}` shows them",
                      folder.string(), good().state.time, folder.string());

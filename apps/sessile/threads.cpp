@@ -22,6 +22,20 @@ std::pair<int, std::error_code> try_threads(int wanted) {
   std::condition_variable changed;
   bool enough = false;
   std::vector<std::jthread> threads;
+  // Before they are joined, however this ends.
+  struct Release {
+    std::mutex& mutex;
+    std::condition_variable& changed;
+    bool& enough;
+    ~Release() {
+      {
+        const std::lock_guard lock(mutex);
+        enough = true;
+      }
+      changed.notify_all();
+    }
+  };
+  const Release release{mutex, changed, enough};
   threads.reserve(static_cast<std::size_t>(wanted));
   std::error_code reason;
   try {
@@ -34,11 +48,6 @@ std::pair<int, std::error_code> try_threads(int wanted) {
   } catch (const std::system_error& e) {
     reason = e.code();
   }
-  {
-    const std::lock_guard lock(mutex);
-    enough = true;
-  }
-  changed.notify_all();
   return {static_cast<int>(threads.size()), reason};
 }
 

@@ -11,7 +11,7 @@ struct ParticleEvent {
   std::int64_t count = 0;
   std::int64_t id = -1;
   Vec3d position{};  ///< after the step; where it stood before, when the new place is not finite [m]
-  Vec3d velocity{};  ///< likewise [m/s]
+  Vec3d velocity{};  ///< after the step, where that is finite; else as forces without pressure left it [m/s]
 };
 
 /// What can show that the last step went wrong, found in the pass that moves the particles.

@@ -2,10 +2,11 @@
 import csv
 import json
 import math
+import os
 
 import png
 from frames import read_pvd, read_vtp
-from sessile_cli import FAILED, CliTest, tiny, unittest
+from sessile_cli import FAILED, IN_USE, CliTest, signal, tiny, unittest
 
 
 def crushing(**changes):
@@ -155,7 +156,75 @@ class Stops(Stability):
         self.assertEqual(self.expect_dump()["kind"], "escape")
 
 
+class Dumps(Stability):
+    def test_leave_results_alone_that_bear_their_name(self):
+        self.run_scene(tiny(), folder="out/fault")
+        before = self.results("out/fault")
+        self.run_scene(tiny())
+        self.assertEqual(self.results("out/fault"), before)
+
+    def test_are_results_once_a_run_has_gone_on_from_them(self):
+        self.run_scene(thrown(), code=FAILED)
+        self.call("run", "--resume", "out/fault", "--set", "time.fixed_dt=0.002", "--progress", "none")
+        self.assertNotIn("fault.json", self.names("out/fault"))
+        before = self.results("out/fault")
+        self.run_scene(tiny())
+        self.assertEqual(self.results("out/fault"), before)
+
+    def test_are_not_taken_from_a_run_that_goes_on_from_them(self):
+        self.run_scene(thrown(), code=FAILED)
+        first = self.start("run", "--resume", "out/fault", "--set", "time.fixed_dt=0.002", "--until", "1e4", "--progress", "none")
+        self.wait_for("out/fault/frame_000002.vtp", process=first)
+        before = self.names()
+        _, err = self.run_scene(tiny(), code=IN_USE)
+        self.assertIn("out/fault: process", err)
+        self.assertEqual(self.names(), before)
+        self.assertIsNone(first.poll())
+
+    def test_do_not_go_into_a_folder_that_took_the_place_of_the_runs(self):
+        # The first step goes wrong, and is slow enough for a rename meanwhile.
+        scene = crushing()
+        scene["bodies"][0]["shape"]["size"] = [5, 5, 5]
+        scene["bodies"][0]["placement"]["position"] = [0, 0, 5]
+        self.write(scene)
+        for turn in range(5):
+            out, moved = self.folder / f"out{turn}", self.folder / f"moved{turn}"
+            process = self.start("run", "s.json", "-o", out.name, "--threads", "1", "--progress", "none")
+            self.wait_for(f"{out.name}/frame_000000.vtp", process=process)
+            process.send_signal(signal.SIGSTOP)
+            os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
+            if process.poll() is None and not (out / "fault").exists():
+                break
+            process.kill()
+        else:
+            self.fail("the step was always done before")
+        out.rename(moved)
+        (out / "fault").mkdir(parents=True)
+        (out / "fault/fault.json").write_text("mine")
+        (out / "fault/stats.csv").write_text("mine")
+        process.send_signal(signal.SIGCONT)
+        _, err = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, FAILED)
+        self.assertIn("particles have no finite position", err)
+        self.assertIn("has been renamed while it was written into", err)
+        for name in ("fault.json", "stats.csv"):
+            self.assertEqual((out / "fault" / name).read_text(), "mine")
+
+
 class GoesBack(Stability):
+    def test_checkpoints_keep_their_interval(self):
+        scene = tiny(time={"end": 0.1, "fixed_dt": 0.001}, stability={"on_fault": "go_back"},
+                     output={"frame_interval": 0.05, "checkpoint": {"interval": 0.02}})
+        self.run_scene(scene, faults={"CALL": "log", "NOTE": self.folder / "log"})
+        calls = [line.split(" ") for line in (self.folder / "log").read_text().splitlines()]
+        written = sum(call[0] == "rename" and "/checkpoint_" in call[2] for call in calls)
+        self.assertIn(written, range(4, 8))
+        # Its last checkpoint is an older state, but the run has come to its end.
+        before = self.results("out")
+        _, err = self.call("run", "--resume", "out")
+        self.assertEqual(err, "out is at 0.1 s, its end; --until lets it go on\n")
+        self.assertEqual(self.results("out"), before)
+
     def test_and_comes_to_the_end(self):
         self.run_scene(thrown(), code=FAILED, folder="fixed")
         _, err = self.run_scene(thrown(stability={"on_fault": "go_back"}), folder="back")

@@ -59,6 +59,11 @@ class SurfaceFolder {
   void write(std::int64_t number, const SurfaceMesh& mesh, const std::vector<const SurfaceFormat*>& formats);
   void write(std::int64_t number, const SurfaceMesh& mesh) { write(number, mesh, formats_); }
 
+  /// Waits until the disk has what a run needs that goes on from here. Throws FileError.
+  void sync() const {
+    if (sequence_) sequence_->sync();
+  }
+
   /// Writes what only the last frame completes: the file that holds them all. Throws FileError.
   void finish();
 

@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 #include <json/json.h>
 
-#include <fstream>
+#include <memory>
+#include <sstream>
 #include <string_view>
 
+#include "sessile/core/error.h"
 #include "sessile/output/json_object.h"
+#include "sessile/scene/input_file.h"
 
 namespace sessile::app {
 namespace {
 
 constexpr int version = 1;
+constexpr std::uintmax_t largest = std::uintmax_t{256} << 20;  // bytes; a million frames take 120 MiB
 
 std::string quoted(const std::string& text) { return Json::valueToQuotedString(text.c_str()); }
 
@@ -65,10 +69,12 @@ std::string index_json(const SurfaceIndex& index) {
 
 SurfaceIndex read_index(const std::filesystem::path& file) {
   SurfaceIndex index;
-  std::ifstream in(file, std::ios::binary);
+  std::string text;
   try {
+    text = read_input(file, largest);
     Json::Value json;
-    if (!in || !Json::parseFromStream(Json::CharReaderBuilder(), in, &json, nullptr) || !json.isObject()) return {};
+    const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
+    if (!reader->parse(text.data(), text.data() + text.size(), &json, nullptr) || !json.isObject()) return {};
     if (json["version"].asInt() != version) return {};
     index.source = json["source"].asString();
     index.spacing = json["spacing"].asDouble();
@@ -78,12 +84,13 @@ SurfaceIndex read_index(const std::filesystem::path& file) {
       const std::string name = solid["file"].asString();
       if (is_ours(name, "solid_")) index.solids.push_back({solid["label"].asString(), name});
     }
+  } catch (const FileError&) {
+    return {};
   } catch (const Json::Exception&) {
     return {};
   }
   // The settings as the file has them, to the letter: numbers that went through a parser need not come out the same.
-  in.clear();
-  in.seekg(0);
+  std::istringstream in(text);
   constexpr std::string_view key = "  \"settings\": ";
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with(key) && line.ends_with(','))

@@ -23,8 +23,11 @@ class SurfaceRecorder {
   /// Called after each step: writes a surface when one is due. Throws FileError.
   void record(const Simulation& simulation);
 
-  /// Of all surfaces that are there [s].
-  const std::vector<double>& times() const { return times_; }
+  /// Times of all surfaces [s], once they are on disk. Throws FileError.
+  const std::vector<double>& settle() const {
+    if (folder_) folder_->sync();
+    return times_;
+  }
 
   /// Area and volume of the surface now, where the scene asks for them.
   std::optional<SurfaceMeasures> measure(const Simulation& simulation);

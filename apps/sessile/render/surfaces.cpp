@@ -1,13 +1,12 @@
 #include "surfaces.h"
 
 #include <fmt/format.h>
-#include <json/json.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <string_view>
+#include <string>
 
+#include "mesh/surface_index.h"
 #include "sessile/core/error.h"
 
 namespace sessile::app {
@@ -15,25 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Json::Value read_list(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  Json::Value list;
-  std::string errors;
-  Json::CharReaderBuilder builder;
-  Json::CharReaderBuilder::strictMode(&builder.settings_);
-  if (!stream || !Json::parseFromStream(builder, stream, &list, &errors) || !list.isObject()) {
-    throw FileError(fmt::format("cannot read {}: it is not what `sessile mesh` writes", file.string()));
-  }
-  return list;
-}
-
 /// A frame's PLY file, which is what Blender reads here; nothing when it was written in other formats only.
-std::string ply_of(const Json::Value& frame) {
-  for (const Json::Value& file : frame["files"]) {
-    if (file.isString() && file.asString().ends_with(".ply")) return file.asString();
-  }
-  const Json::Value& file = frame["file"];
-  return file.isString() && file.asString().ends_with(".ply") ? file.asString() : "";
+std::string ply_of(const SurfaceEntry& frame) {
+  const auto found = std::ranges::find_if(frame.files, [](const std::string& file) { return file.ends_with(".ply"); });
+  return found == frame.files.end() ? "" : *found;
 }
 
 }  // namespace
@@ -47,17 +31,19 @@ Surfaces read_surfaces(const fs::path& results) {
     throw FileError(
         fmt::format("{} holds no surfaces; run `sessile mesh {}` first", results.string(), results.string()));
   }
-  const Json::Value list = read_list(surfaces.list);
-  for (const Json::Value& frame : list["frames"]) {
+  const SurfaceIndex index = read_index(surfaces.list);
+  if (index.source.empty()) {
+    throw FileError(fmt::format("cannot read {}: it is not what `sessile mesh` writes", surfaces.list.string()));
+  }
+  for (const SurfaceEntry& frame : index.frames) {
     const std::string file = ply_of(frame);
-    if (file.empty() || !frame["number"].isInt64() || !frame["time"].isNumeric()) {
+    if (file.empty()) {
       throw FileError(fmt::format("{} lists a frame without a PLY file; run `sessile mesh {}` once more",
                                   surfaces.list.string(), results.string()));
     }
-    surfaces.frames.push_back(
-        {frame["number"].asInt64(), frame["time"].asDouble(), surfaces.list.parent_path() / file});
+    surfaces.frames.push_back({frame.number, frame.time, surfaces.list.parent_path() / file});
   }
-  for (const Json::Value& solid : list["solids"]) surfaces.solids.push_back(solid["label"].asString());
+  for (const SurfaceIndex::Solid& solid : index.solids) surfaces.solids.push_back(solid.label);
   std::ranges::sort(surfaces.frames, {}, &SurfaceFile::time);
   if (surfaces.frames.empty()) throw FileError(fmt::format("{} lists no frames", surfaces.list.string()));
   return surfaces;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sessile/core/error.h"
+#include "sessile/scene/input_file.h"
 
 namespace sessile {
 namespace {
@@ -37,6 +38,23 @@ int open_anew(const fs::path& path, int flags) {
   const bool device = ::lstat(path.c_str(), &there) == 0 && (S_ISCHR(there.st_mode) || S_ISBLK(there.st_mode));
   if (!device && ::unlink(path.c_str()) != 0 && errno != ENOENT) return -1;
   return open_descriptor(path, O_WRONLY | O_CREAT | O_NOFOLLOW | (device ? 0 : O_EXCL) | flags);
+}
+
+/// Opens a file to go on with. One that is a link, of either kind, gives way to a copy of its first bytes; a pipe is
+/// not waited for. Returns -1 with errno.
+int open_again(const fs::path& path, std::uint64_t bytes) {
+  struct stat there {};
+  if (::lstat(path.c_str(), &there) != 0) return -1;
+  if (S_ISLNK(there.st_mode) || (S_ISREG(there.st_mode) && there.st_nlink > 1)) {
+    std::string kept;
+    try {
+      kept = read_beginning(path, static_cast<std::size_t>(bytes));
+    } catch (const FileError& fault) {
+      throw FileError(fmt::format("cannot go on with {}: {}", path.string(), fault.what()));
+    }
+    write_whole(path, kept);
+  }
+  return open_descriptor(path, O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK);
 }
 
 /// Writes all bytes. Returns 0 or the error.
@@ -108,7 +126,7 @@ LineFile::LineFile(fs::path path) : path_(std::move(path)), descriptor_(open_ane
 }
 
 LineFile::LineFile(fs::path path, Keep keep)
-    : path_(std::move(path)), descriptor_(open_descriptor(path_, O_WRONLY | O_APPEND | O_NOFOLLOW)), size_(keep.bytes) {
+    : path_(std::move(path)), descriptor_(open_again(path_, keep.bytes)), size_(keep.bytes) {
   if (descriptor_ < 0) throw failure("go on with", path_, errno);
   struct stat now {};
   int error = ::fstat(descriptor_, &now) == 0 ? 0 : errno;

@@ -121,6 +121,10 @@ UsdaWriter::~UsdaWriter() {
   for (const Attribute& each : attributes_) std::filesystem::remove(each.file, ignored);
 }
 
+void UsdaWriter::sync() const {
+  for (const Attribute& each : attributes_) each.samples->sync();
+}
+
 std::filesystem::path UsdaWriter::part_of(std::size_t attribute) const {
   return part_name(file_.parent_path() / fmt::format("{}.{}", file_.filename().string(), attribute));
 }

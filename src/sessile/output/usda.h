@@ -29,6 +29,9 @@ class UsdaWriter {
   /// From now on, what has not been joined stays for a writer that goes on with it.
   void leave_parts() { leaves_parts_ = true; }
 
+  /// Waits until the disk has the samples that have been added. Throws FileError.
+  void sync() const;
+
   /// Takes back what has not been joined.
   ~UsdaWriter();
   UsdaWriter(UsdaWriter&&) = delete;

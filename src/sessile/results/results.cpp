@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "sessile/core/error.h"
+#include "sessile/core/memory_limit.h"
 #include "sessile/results/frame_files.h"
 #include "sessile/scene/read.h"
 
@@ -24,10 +25,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 2> formats{"vtp", "ply"};          // what can be read, the preferred first
-constexpr std::uintmax_t largest_frame = std::uintmax_t{1} << 40;         // a bound on what grows while it is read
 constexpr std::uintmax_t largest_collection = std::uintmax_t{128} << 20;  // a million frames take 70 MiB
 constexpr std::uintmax_t largest_summary = std::uintmax_t{16} << 20;
 constexpr std::size_t head_bytes = 4096;  // enough for the time, which stands in front
+
+/// A frame's bytes and what is made of them must both fit.
+std::uintmax_t largest_frame() { return static_cast<std::uintmax_t>(memory_limit().bytes / 2); }
 
 /// The number in frame_000012.vtp; nothing for other names.
 std::optional<std::int64_t> number_of(const std::string& name, std::string_view format) {
@@ -144,7 +147,7 @@ Results open_results(const fs::path& folder) {
 }
 
 Snapshot read_frame(const fs::path& file) {
-  std::string bytes = file_bytes(file, largest_frame);
+  std::string bytes = file_bytes(file, largest_frame());
   try {
     if (file.extension() == ".ply") return parse_ply_frame(bytes);
     if (file.extension() == ".vtp") return parse_vtp_frame(std::move(bytes));
