@@ -167,7 +167,13 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
     progress.finish(simulation);
     facts.wall_time = wall();
     facts.stability = stability.facts();
-    recorder->finish(simulation, facts);
+    try {
+      recorder->finish(simulation, facts);
+    } catch (const std::exception& e) {
+      result.error = std::current_exception();
+      result.message = sentence(e);
+      result.status = RunStatus::failed;
+    }
   }
   result.wall = wall();
   result.frames = recorder ? recorder->frames() : 0;
