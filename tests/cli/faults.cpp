@@ -7,7 +7,7 @@
 ///   FAULT_COUNT=2        then so many fail; all that follow unless given
 ///   FAULT_ERROR=28       with this errno
 ///   FAULT_SIZE=4096      of memory, pieces as large as this only [bytes]
-///   FAULT_HOLD=FILE      or make FILE and wait, for ever
+///   FAULT_HOLD=FILE      or make FILE, wait until somebody removes it, and go through
 ///   FAULT_NOTE=FILE      clock: the clock of the day jumps at every look; who waits by it is noted in FILE
 ///                        log: nothing fails; what is done with files is noted in FILE
 #include <dlfcn.h>
@@ -44,7 +44,7 @@ std::atomic<long> seen = 0;
 /// Threads that shared libraries start while they are loaded are not the program's: it has not begun.
 bool begun = false;
 
-/// Whether this call is one that fails; it then never returns, or sets errno.
+/// Whether this call is one that fails; errno then says why.
 bool fails(const char* call, const char* path) {
   if (std::strcmp(setting("FAULT_CALL"), call) != 0 || std::strstr(path, setting("FAULT_PATH")) == nullptr)
     return false;
@@ -52,7 +52,8 @@ bool fails(const char* call, const char* path) {
   if (number <= after || (count > 0 && number > after + count)) return false;
   if (const char* const hold = setting("FAULT_HOLD"); *hold != '\0') {
     close(open(hold, O_WRONLY | O_CREAT, 0600));
-    for (;;) pause();
+    while (access(hold, F_OK) == 0) usleep(1000);
+    return false;
   }
   errno = atoi(setting("FAULT_ERROR"));
   return true;

@@ -2,11 +2,10 @@
 import csv
 import json
 import math
-import os
 
 import png
 from frames import read_pvd, read_vtp
-from sessile_cli import FAILED, IN_USE, CliTest, signal, tiny, unittest
+from sessile_cli import FAILED, IN_USE, CliTest, tiny, unittest
 
 
 def crushing(**changes):
@@ -182,33 +181,21 @@ class Dumps(Stability):
         self.assertIsNone(first.poll())
 
     def test_do_not_go_into_a_folder_that_took_the_place_of_the_runs(self):
-        # The first step goes wrong, and is slow enough for a rename meanwhile.
-        scene = crushing()
-        scene["bodies"][0]["shape"]["size"] = [5, 5, 5]
-        scene["bodies"][0]["placement"]["position"] = [0, 0, 5]
-        self.write(scene)
-        for turn in range(5):
-            out, moved = self.folder / f"out{turn}", self.folder / f"moved{turn}"
-            process = self.start("run", "s.json", "-o", out.name, "--threads", "1", "--progress", "none")
-            self.wait_for(f"{out.name}/frame_000000.vtp", process=process)
-            process.send_signal(signal.SIGSTOP)
-            os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
-            if process.poll() is None and not (out / "fault").exists():
-                break
-            process.kill()
-        else:
-            self.fail("the step was always done before")
-        out.rename(moved)
-        (out / "fault").mkdir(parents=True)
-        (out / "fault/fault.json").write_text("mine")
-        (out / "fault/stats.csv").write_text("mine")
-        process.send_signal(signal.SIGCONT)
+        # The run waits in its first line of stats.csv, and its first step goes wrong.
+        process = self.start("run", self.write(crushing()), "-o", "out", "--progress", "none",
+                             faults={"CALL": "write", "PATH": "stats.csv", "AFTER": 1, "COUNT": 1, "HOLD": self.folder / "held"})
+        self.wait_for("held", "out/frame_000000.vtp", "out/frame_000000.ply", "out/frames.pvd", process=process)
+        (self.folder / "out").rename(self.folder / "moved")
+        (self.folder / "out/fault").mkdir(parents=True)
+        for name in ("fault.json", "stats.csv"):
+            (self.folder / "out/fault" / name).write_text("mine")
+        (self.folder / "held").unlink()
         _, err = process.communicate(timeout=60)
         self.assertEqual(process.returncode, FAILED)
-        self.assertIn("particles have no finite position", err)
-        self.assertIn("has been renamed while it was written into", err)
+        self.assertRegex(err, r"27 of 27 particles have no finite position.*\. Besides, the folder out has been renamed while it was "
+                              r"written into; what is there is whole: .*/moved;")
         for name in ("fault.json", "stats.csv"):
-            self.assertEqual((out / "fault" / name).read_text(), "mine")
+            self.assertEqual((self.folder / "out/fault" / name).read_text(), "mine")
 
 
 class GoesBack(Stability):
