@@ -26,7 +26,11 @@ namespace {
 bool promises_density(const Pressure& method) {
   return std::visit(
       [](const auto& solver) {
-        return requires { solver.error; };
+        if constexpr (requires { solver.error; }) {
+          return true;
+        } else {
+          return false;
+        }
       },
       method);
 }
