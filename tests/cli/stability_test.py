@@ -105,6 +105,17 @@ class Stops(Stability):
         self.call("run", "--resume", "out/fault", "--set", "time.fixed_dt=0.002", "--progress", "none")
         self.assertEqual(self.summary("out/fault")["status"], "done")
 
+    def test_when_the_liquid_collapses(self):
+        # It attracts itself, and the solver hardly holds against it.
+        scene = tiny(time={"end": 1, "fixed_dt": 0.002}, gravity=[0, 0, 0], solids=[], fluid={"viscosity": 200},
+                     forces=[{"type": "becker2007", "tension": 10}], pressure={"type": "wcsph", "sound_speed": 0.1},
+                     bodies=[{"shape": {"type": "box", "size": [0.6, 0.6, 0.6]}}], stability={"collapse_limit": 3})
+        _, err = self.run_scene(scene, code=FAILED)
+        self.assertRegex(err, r"sessile: the liquid has collapsed: particle \d+ has [\d.]+ times the rest density after step \d+ "
+                              r"of 0\.002 s \(fixed[^)]*\), to [\d.]+ s(, and \d+ more with it)?; it is at .* or "
+                              r"with wcsph a greater pressure\.sound_speed")
+        self.assertEqual(self.expect_dump()["kind"], "collapse")
+
     def test_not_where_wcsph_compresses_the_liquid_but_says_so(self):
         scene = tiny(time={"end": 0.6, "fixed_dt": 0.005}, forces=[], pressure={"type": "wcsph", "sound_speed": 5},
                      bodies=[{"shape": {"type": "box", "size": [0.8, 0.8, 0.8]}, "placement": {"position": [0, 0, 0.5]}}],

@@ -4,6 +4,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
@@ -124,6 +125,38 @@ TEST(Health, TellsAnEscapeFromAPassage) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].kind, RunFaultKind::escape);
   EXPECT_NE(found[0].message.find("\"domain_z_min\""), std::string::npos) << found[0].message;
+}
+
+/// A block that attracts itself, and a solver that hardly holds against it.
+Scene soft() {
+  Scene scene = test::block(6, 2e-3);
+  scene.forces = {Becker2007{10}};
+  Wcsph solver;
+  solver.sound_speed = 0.1;
+  scene.pressure = solver;
+  return scene;
+}
+
+TEST(Health, FindsACollapsedLiquid) {
+  StabilitySettings settings;
+  settings.collapse_limit = 3;
+  Simulation simulation(soft());
+  const auto found = faults(simulation, settings, 500);
+  ASSERT_EQ(found.size(), 1U);
+  const RunFault& f = found[0];
+  EXPECT_EQ(f.kind, RunFaultKind::collapse);
+  EXPECT_TRUE(f.counts);
+  EXPECT_GE(f.count, 1);
+  const auto& density = simulation.density();
+  const auto densest = std::max_element(density.begin(), density.end()) - density.begin();
+  EXPECT_GT(density[static_cast<std::size_t>(densest)], 3);
+  EXPECT_EQ(f.particle, simulation.particles().id[static_cast<std::size_t>(densest)]);
+  EXPECT_EQ(f.count, std::count_if(density.begin(), density.end(), [](Real rho) { return rho > 3; }));
+  EXPECT_NE(f.message.find("the liquid has collapsed"), std::string::npos) << f.message;
+
+  Simulation again(soft());
+  settings.collapse_limit = 30;
+  EXPECT_TRUE(faults(again, settings, static_cast<int>(f.step)).empty());
 }
 
 /// A periodic block whose masses are 5 % too great: there is nowhere to go, no pressure helps.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sessile/core/parallel.h"
 #include "sessile/measure/diagnostics.h"
 #include "sessile/simulation.h"
 
@@ -44,6 +45,10 @@ RunFault begun(const Simulation& simulation, RunFaultKind kind, const ParticleEv
   return f;
 }
 
+std::size_t densest(const Array<Real>& density) {
+  return static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin());
+}
+
 RunFault not_finite(const Simulation& simulation) {
   RunFault f = begun(simulation, RunFaultKind::not_finite, simulation.health().not_finite);
   f.message = fmt::format(
@@ -62,18 +67,33 @@ RunFault speed(const Simulation& simulation) {
   return f;
 }
 
+/// Names the densest particle, and counts those above `limit` rest densities.
+RunFault of_the_densest(const Simulation& simulation, RunFaultKind kind, Real limit) {
+  const auto& density = simulation.density();
+  const Particles& p = simulation.particles();
+  const std::size_t k = densest(density);
+  RunFault f = begun(simulation, kind, {1, p.id[k], vec_cast<double>(p.position[k]), vec_cast<double>(p.velocity[k])});
+  f.count = std::count_if(density.begin(), density.end(), [&](Real rho) { return rho > limit; });
+  return f;
+}
+
+RunFault collapse(const Simulation& simulation, double limit) {
+  const auto& density = simulation.density();
+  RunFault f = of_the_densest(simulation, RunFaultKind::collapse, static_cast<Real>(limit));
+  f.message =
+      fmt::format("the liquid has collapsed: particle {} has {:.3g} times the rest density after {}{}; it is at {}",
+                  f.particle, density[densest(density)], step_text(f), others(f), whereabouts(f));
+  return f;
+}
+
 RunFault density(const Simulation& simulation, int steps) {
   const auto& density = simulation.density();
-  const auto densest = static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin());
-  const Particles& p = simulation.particles();
-  RunFault f = begun(simulation, RunFaultKind::density,
-                     {1, p.id[densest], vec_cast<double>(p.position[densest]), vec_cast<double>(p.velocity[densest])});
-  f.count = std::count_if(density.begin(), density.end(), [](Real rho) { return rho > 1; });
+  RunFault f = of_the_densest(simulation, RunFaultKind::density, 1);
   f.message = fmt::format(
       "the liquid stays compressed, by {:.3g} % on average, and {} pressure solves in a row ended above their error "
       "without getting better, up to {}; most of all particle {}, by {:.3g} %, at {}",
       100 * compression(density).average, steps, step_text(f), f.particle,
-      100 * (static_cast<double>(density[densest]) - 1), whereabouts(f));
+      100 * (static_cast<double>(density[densest(density)]) - 1), whereabouts(f));
   return f;
 }
 
@@ -92,6 +112,10 @@ std::vector<RunFault> Health::look(const Simulation& simulation) {
   const StepHealth& last = simulation.health();
   std::vector<RunFault> found;
   if (last.not_finite.count > 0) return {not_finite(simulation)};
+  const auto density_of = [&](int i) { return static_cast<double>(simulation.density()[static_cast<std::size_t>(i)]); };
+  if (maximum(simulation.density().size(), density_of) > settings_.collapse_limit) {
+    found.push_back(collapse(simulation, settings_.collapse_limit));
+  }
   if (settings_.speed && last.throw_length > settings_.speed_limit * simulation.units().support_radius) {
     found.push_back(speed(simulation));
   }
@@ -133,6 +157,7 @@ std::string advice(const RunFault& fault, const StabilitySettings& settings) {
                          ? "A smaller time.fixed_dt may carry it over this, or leave it out for steps "
                            "that follow the motion"
                          : "A smaller time.dt_max or time.cfl may carry it over this";
+  if (fault.kind == RunFaultKind::collapse) text += ", or less tension, or with wcsph a greater pressure.sound_speed";
   if (fault.kind == RunFaultKind::density) text += ", or more pressure.max_iterations";
   if (settings.on_fault == OnFault::stop) text += "; stability.on_fault = \"go_back\" tries shorter steps by itself";
   return text;

@@ -15,11 +15,12 @@ namespace sessile {
 class Simulation;
 
 /// How a run can go wrong, the worst first.
-enum class RunFaultKind { not_finite, speed, density, escape, passage };
+enum class RunFaultKind { not_finite, collapse, speed, density, escape, passage };
 
 template <>
 struct Words<RunFaultKind> {
-  static constexpr std::array<std::string_view, 5> words{"not_finite", "speed", "density", "escape", "passage"};
+  static constexpr std::array<std::string_view, 6> words{"not_finite", "collapse", "speed",
+                                                         "density",    "escape",   "passage"};
 };
 
 /// One thing that went wrong in a step: what, when, where.
@@ -45,10 +46,11 @@ struct HealthState {
 
 /// Watches a run for what a step that is too long does to it:
 ///   not_finite  a position, velocity or pressure is not finite
-///   speed       a step throws a particle more than speed_limit support radii off the way of its velocity. Whatever
-///   acts
-///               on a particle reaches no farther than one of them: what the step reckoned with no longer holds there.
-///               A step within its bounds throws one by 0.06 dx, and pressure that stops it or parts a pair by about dx
+///   collapse    a density is above collapse_limit rest densities. Neighbours grow with it, to the end
+///               of time and memory
+///   speed       a step throws a particle more than speed_limit support radii off the way of its velocity. What acts
+///               on it reaches no farther than one of them: what the step reckoned with no longer holds there. A step
+///               within its bounds throws one by 0.06 dx, and pressure that stops it or parts a pair by about dx
 ///   density     in density_steps steps in a row the solve ended above its error with an average compression above
 ///               density_limit at the new positions, on the later half of them no less than on the first
 ///   escape      a particle passes through a container or a closed face of the domain

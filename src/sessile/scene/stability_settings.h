@@ -17,13 +17,14 @@ struct Words<OnFault> {
   static constexpr std::array<std::string_view, 2> words{"stop", "go_back"};
 };
 
-/// What counts as a fault of a run, and what then happens. Numbers that are not finite always count.
+/// What counts as a fault of a run, and what then happens. Numbers that are not finite and a collapse always count.
 struct StabilitySettings {
   OnFault on_fault = OnFault::stop;
   int retries = 5;
   double dt_factor = 0.5;
   std::optional<double> hold;
   std::optional<double> keep_interval;
+  double collapse_limit = 30;
   bool speed = true;
   double speed_limit = 1;
   bool density = true;
@@ -44,6 +45,8 @@ struct StabilitySettings {
                 "100 of the steps that failed"),
         derived(field(&T::keep_interval, "keep_interval", "s", positive, "time between the states that are kept"),
                 "the frame interval"),
+        field(&T::collapse_limit, "collapse_limit", "", at_least(2),
+              "rest densities above which the liquid has collapsed"),
         field(&T::speed, "speed", "whether it is a fault that a step throws a particle beyond speed_limit"),
         field(&T::speed_limit, "speed_limit", "", positive,
               "support radii that a step may throw a particle off the way of its velocity"),
