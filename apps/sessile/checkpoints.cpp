@@ -95,18 +95,24 @@ FoundCheckpoint find_checkpoint(const fs::path& results, std::optional<double> a
   for (const Kept& each : list(results / checkpoint_folder_name)) {
     try {
       found.checkpoint = read_checkpoint(each.file);
+    } catch (const ForeignCheckpoint& e) {
+      // It may be the best there is: another program goes on from it, and nothing is to be written over it.
+      if (!at) throw;
+      found.passed_over.emplace_back(e.what());
+      continue;
     } catch (const FileError& e) {
       found.passed_over.emplace_back(e.what());
       continue;
     }
     const double time = found.checkpoint.state.time;
     earliest = time;
-    if (at && time > *at) continue;
+    // A hair of a step forgives the rounding of many added ones.
+    if (at && time - 1e-6 * found.checkpoint.state.last_step.dt > *at) continue;
     found.file = each.file;
     return found;
   }
   std::string what = fmt::format("{}: there is no checkpoint to go on from", results.string());
-  if (earliest) what += fmt::format(" at {:g} s; the earliest is of {:.6g} s", *at, *earliest);
+  if (earliest) what += fmt::format(" at {:.9g} s; the earliest is of {:.9g} s", *at, *earliest);
   for (const std::string& each : found.passed_over) what += "\n" + each;
   throw FileError(what);
 }

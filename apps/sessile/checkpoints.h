@@ -51,7 +51,7 @@ struct FoundCheckpoint {
 };
 
 /// The newest whole checkpoint of a run, or the newest that is not after `at` [s].
-/// Throws FileError when there is none.
+/// Throws FileError when there is none, ForeignCheckpoint when the newest is one, unless `at` asks for an earlier one.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& results, std::optional<double> at);
 
 /// Whether a run has left any in its folder of results.

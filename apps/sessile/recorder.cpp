@@ -37,7 +37,7 @@ StatsWriter stats_of(const std::filesystem::path& folder, const Simulation& simu
 
 Recorder::Recorder(const std::filesystem::path& folder, const Simulation& simulation,
                    const std::optional<SessionState>& before)
-    : folder_(before ? rewound_folder(folder, *before) : fresh_folder(folder)),
+    : folder_(before ? rewound_folder(folder, *before, simulation.totals().steps) : fresh_folder(folder)),
       frames_(folder, simulation.scene().output.formats, before ? before->frame_times : std::vector<double>{}),
       stats_(stats_of(folder, simulation, before)),
       surfaces_(folder, simulation.scene(), before ? before->surface_times : std::vector<double>{}),

@@ -50,7 +50,7 @@ struct Name {
 
 /// Whether a file is of an earlier run.
 bool is_result(const Name& file) {
-  if (file.name == fault_file_name || file.name == "frames.pvd" || file.name == "scene.json" ||
+  if (file.name == fault_file_name || file.name == collection_file_name || file.name == "scene.json" ||
       file.name == "summary.json")
     return true;
   return file.in_known_format() && (file.name.starts_with("frame_") || file.name.starts_with("solids."));
@@ -80,9 +80,13 @@ const fs::path& fresh_folder(const fs::path& folder) {
   return folder;
 }
 
-const fs::path& rewound_folder(const fs::path& folder, const SessionState& state) {
+const fs::path& rewound_folder(const fs::path& folder, const SessionState& state, std::int64_t step) {
   create_output_folder(folder);
+  remove_checkpoints(folder, step);  // before the files that they would go on with
   remove_fault_dump(folder / fault_folder_name);
+  if (const fs::path collection = folder / collection_file_name; fs::exists(collection)) {
+    write_whole(collection, encode_collection(state.frame_times));
+  }
   const auto frames = static_cast<std::int64_t>(state.frame_times.size());
   remove_files(folder, [&](const Name& file) {
     if (file.name == "summary.json" || file.name == fault_file_name || (file.half && is_result(file))) return true;

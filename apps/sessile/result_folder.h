@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "session_state.h"
@@ -10,8 +11,9 @@ namespace sessile::app {
 /// pass for theirs. stats.csv is begun anew in any case. Throws FileError.
 const std::filesystem::path& fresh_folder(const std::filesystem::path& folder);
 
-/// Takes out of a folder of results what was written after a checkpoint, and half files of a run that was killed.
-/// Throws FileError.
-const std::filesystem::path& rewound_folder(const std::filesystem::path& folder, const SessionState& state);
+/// Takes out of a folder of results what was written after a checkpoint of this step, newer checkpoints too, and half
+/// files of a run that was killed. Throws FileError.
+const std::filesystem::path& rewound_folder(const std::filesystem::path& folder, const SessionState& state,
+                                            std::int64_t step);
 
 }  // namespace sessile::app

@@ -20,6 +20,7 @@ struct ResumeOptions {
 struct Resumable {
   Simulation simulation;
   SessionState before;
+  bool changed = false;            ///< whether its scene is not that of the checkpoint
   std::vector<std::string> notes;  ///< what the user should know, one line each
 };
 
@@ -27,10 +28,11 @@ struct Resumable {
 /// Throws SceneError for what may not change, and FileError when there is no checkpoint to go on from.
 Resumable open_run(const ResumeOptions& options);
 
-/// Whether the run in this folder has come to this end [s] and written all that belongs to it.
-bool is_complete(const std::filesystem::path& results, double end);
+/// Whether the run in this folder has come to its end and written all that belongs to it.
+bool is_complete(const std::filesystem::path& results, const Simulation& run);
 
-/// Takes checkpoints away that are newer than where a run goes on from. Throws FileError.
-void drop_newer_checkpoints(const ResumeOptions& options, const Resumable& run);
+/// Throws FileError when the files that a run goes on with are not there any more, FolderInUse when another program
+/// works on some of them.
+void require_results(const std::filesystem::path& results, const Resumable& run);
 
 }  // namespace sessile::app

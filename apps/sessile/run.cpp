@@ -90,13 +90,20 @@ int resume(RunOptions options, const std::string& folder, std::optional<double> 
   if (options.progress != "none") {
     for (const std::string& note : run.notes) say(stderr, "warning: " + note + "\n");
   }
-  const double end = run.simulation.scene().time.end;
-  if ((!at || run.simulation.finished()) && is_complete(folder, end)) {
+  if ((!at || run.simulation.finished()) && is_complete(folder, run.simulation)) {
+    const double end = run.simulation.scene().time.end;
     say(stderr, fmt::format("{} is at {:.4g} s, its end; --until lets it go on\n", folder, end));
     return done;
   }
-  drop_newer_checkpoints(wanted, run);
-  const SessionOptions session{folder, folder, progress_style(options.progress), ""};
+  try {
+    require_results(folder, run);
+  } catch (const FolderInUse&) {
+    throw;
+  } catch (const FileError& e) {
+    say(stderr, fmt::format("sessile: {}\n", e.what()));  // nothing has been touched, and it would come again
+    return run_failed;
+  }
+  const SessionOptions session{folder, folder, progress_style(options.progress), "", true, run.changed};
   return attempt(folder, true, [&] {
     return say_end(resume_session(std::move(run.simulation), session, run.before, *lock), options);
   });

@@ -130,6 +130,8 @@ SessionResult run_from(Simulation simulation, const SessionOptions& options, con
   facts.scene_json = to_json(simulation.scene());
   try {
     if (options.checkpoints) keep_good_state();
+    // So that a kill before the next one does not undo what the user has changed.
+    if (options.changed && checkpoints.wanted()) keep_state();
     while (!simulation.finished() && !stop_asked() && result.message.empty()) {
       const auto began = Clock::now();
       const bool well = stability.step(simulation, progress);

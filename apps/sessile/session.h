@@ -23,6 +23,7 @@ struct SessionOptions {
   ProgressStyle progress = ProgressStyle::none;
   std::string name;         ///< of this run, where a program makes several
   bool checkpoints = true;  ///< whether to write those that the scene asks for
+  bool changed = false;     ///< of a run that goes on: whether its scene is not that of its checkpoint
 };
 
 /// How a run went.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -80,7 +81,7 @@ class Simulation {
   StepView view() const;
 
  private:
-  void set_up_surroundings();
+  void set_up_surroundings(std::optional<double> liquid);
   void take_over(SimulationState state);
   void fill_bodies();
   void look_around();

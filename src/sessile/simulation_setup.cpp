@@ -23,9 +23,15 @@ namespace {
 // Particles this close to each other or to a boundary particle at the start would be flung apart [dx].
 constexpr double least_distance = 0.5;
 
-void refuse_what_does_not_fit(const Scene& scene) {
+double estimate_bodies(const Scene& scene) {
   double particles = 0;
   for (const Body& body : scene.bodies) particles += estimate_fill(body, scene.spacing);
+  return particles;
+}
+
+/// `liquid`: its particles at the start, where they are known already.
+void refuse_what_does_not_fit(const Scene& scene, std::optional<double> liquid) {
+  double particles = liquid ? *liquid : estimate_bodies(scene);
   for (const Emitter& emitter : scene.emitters) particles += estimate_layer(emitter, scene.spacing);
   for (const Solid& solid : scene.solids) particles += estimate_surface(solid, scene.spacing);
   if (scene.domain) {
@@ -184,11 +190,11 @@ double expected_speed(const Scene& scene, const Array3& liquid, const Walls& wal
 
 }  // namespace
 
-void Simulation::set_up_surroundings() {
+void Simulation::set_up_surroundings(std::optional<double> liquid) {
   std::vector<std::string> invalid;
   for (const Fault& fault : validate(scene_)) invalid.push_back(text(fault));
   if (!invalid.empty()) throw SceneError(std::move(invalid));
-  refuse_what_does_not_fit(scene_);
+  refuse_what_does_not_fit(scene_, liquid);
   units_ = {scene_.spacing, scene_.support_radius(), scene_.fluid.rest_density};
   space_ = make_space(scene_);
   grid_shape_ = GridShape::make(units_.support_radius, scene_.domain ? scene_.domain->min : Vec3d{},
@@ -233,7 +239,7 @@ void Simulation::fill_bodies() {
 }
 
 Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
-  set_up_surroundings();
+  set_up_surroundings({});
   fill_bodies();
   settle_sound_speed(particles_.position);
   for (std::size_t k = 0; k < particles_.size(); ++k) {
@@ -246,7 +252,7 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)) {
 }
 
 Simulation::Simulation(Scene scene, SimulationState state) : scene_(std::move(scene)) {
-  set_up_surroundings();
+  set_up_surroundings(static_cast<double>(state.particles.size()));
   take_over(std::move(state));
 }
 

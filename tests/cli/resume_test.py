@@ -144,7 +144,7 @@ class Changes(ResumeTest):
         self.run_scene(lively(), "out", "--until", "0.1")
 
     def test_what_may_change(self):
-        self.resume("out", "--set", "output.frame_interval=0.05", "--set", "output.fields=[\"id\"]", "--until", "0.2")
+        self.resume("out", "--set", "output.frame_interval=0.05", "--until", "0.2")
         times = [row.split('"')[1] for row in re.findall(r"timestep=\S+", (self.folder / "out/frames.pvd").read_text())]
         self.assertEqual(len(times), 11 + 2)
         self.assertEqual(json.loads((self.folder / "out/scene.json").read_text())["output"]["frame_interval"], 0.05)
@@ -154,6 +154,7 @@ class Changes(ResumeTest):
         for setting, message in {
             "spacing=0.05": "spacing: cannot change while the simulation runs, only from its start",
             "output.formats=[\"ply\"]": "output.formats: cannot change when a run is resumed, as its folder would hold files of two kinds",
+            "output.fields=[\"id\"]": "output.fields: cannot change when a run is resumed, as its folder would hold files of two kinds",
             "output.surface.cube_size=1": "output.surface.cube_size: cannot change when a run is resumed",
             "time.fixed_dt=-1": "time.fixed_dt: must be above 0 s, found -1",
         }.items():

@@ -238,6 +238,58 @@ TEST(SurfaceUsda, GoesOnWhereAWriterWasStopped) {
   EXPECT_THROW(resumed_usda(folder / "none.usda", 0, 2, false), FileError);
 }
 
+/// Adds frames of one size of tetrahedra, so that others can be told from them.
+void add_frames(UsdaWriter& writer, int from, int to, double size) {
+  for (int k = from; k < to; ++k) {
+    SurfaceMesh mesh = tetrahedron(size);
+    mesh.time = 0.04 * k;
+    writer.add(mesh);
+  }
+}
+
+// A finished file, a writer that goes on with it from an earlier frame and is killed, one that goes on with that.
+TEST(SurfaceUsda, GoesOnWithItsPartsAndNotWithAnEarlierEnd) {
+  TemporaryFolder folder;
+  const auto whole = folder / "whole.usda", file = folder / "surface.usda";
+  {
+    UsdaWriter writer(whole, 25);
+    add_frames(writer, 0, 2, 1);
+    add_frames(writer, 2, 6, 2);
+    writer.finish({0, 0, 1}, {});
+  }
+  {
+    UsdaWriter first(file, 25);
+    add_frames(first, 0, 4, 1);
+    first.finish({0, 0, 1}, {});
+  }
+  {
+    UsdaWriter second(file, 25, 2, 0.04);
+    add_frames(second, 2, 5, 2);
+  }
+  EXPECT_FALSE(std::filesystem::exists(file)) << "it is of another past than the parts";
+  UsdaWriter third(file, 25, 4, 0.12);
+  add_frames(third, 4, 6, 2);
+  third.finish({0, 0, 1}, {});
+  EXPECT_EQ(read_file(file), read_file(whole));
+}
+
+TEST(SurfaceUsda, LeavesWhatItCannotGoOnWith) {
+  TemporaryFolder folder;
+  const auto file = folder / "surface.usda";
+  {
+    UsdaWriter first(file, 25);
+    first.leave_parts();
+    add_frames(first, 0, 3, 1);
+  }
+  const std::size_t parts = folder.entries();
+  EXPECT_THROW(UsdaWriter(file, 25, 4, 0.12), FileError);
+  EXPECT_EQ(folder.entries(), parts);
+  EXPECT_NO_THROW(UsdaWriter(file, 25, 3, 0.08));
+  EXPECT_EQ(folder.entries(), parts) << "nothing was finished, so that another may go on";
+  UsdaWriter anew(file, 25);
+  EXPECT_EQ(folder.entries(), 0u) << "those of another past";
+}
+
 TEST(CheckOutput, NamesUnknownFormatsOfSurfaces) {
   Scene scene;
   scene.output.surface.emplace().formats = {"ply", "usd"};

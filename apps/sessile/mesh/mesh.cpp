@@ -144,7 +144,7 @@ int mesh_folder(const MeshOptions& options) {
 
   heed_signals();
   SurfaceFolder surfaces(folder, results.folder, results.scene, std::move(plan),
-                         options.again ? std::optional<std::size_t>(0) : std::nullopt);
+                         options.again ? std::optional(std::vector<double>{}) : std::nullopt);
   if (!surfaces.lock().warning().empty()) say(stderr, "warning: " + surfaces.lock().warning() + "\n");
   surfaces.keep_only(results.frames);
   const std::vector<Due> work = due_of(surfaces, frames);

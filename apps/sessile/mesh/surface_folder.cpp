@@ -55,6 +55,42 @@ std::vector<const SurfaceFormat*> formats_named(const std::vector<std::string>& 
   return formats;
 }
 
+/// What surface.json says of where the surfaces of a folder come from.
+SurfaceIndex origin_of(const fs::path& folder, const fs::path& source, const Scene& scene, const SurfacePlan& plan) {
+  SurfaceIndex index;
+  index.source = fs::absolute(source).lexically_normal().lexically_proximate(fs::absolute(folder).lexically_normal());
+  index.spacing = plan.spacing;
+  index.up = up_of(scene);
+  index.settings = on_one_line(to_json(plan.settings));
+  return index;
+}
+
+/// All frames of surface.json, those too that only the file of all frames is to hold.
+std::vector<SurfaceEntry> all_frames(SurfaceIndex index) {
+  std::vector<SurfaceEntry> frames = std::move(index.frames);
+  std::ranges::move(index.waiting, std::back_inserter(frames));
+  std::ranges::sort(frames, {}, &SurfaceEntry::number);
+  return frames;
+}
+
+/// The frames of a folder, if the first of them are of these times and all there.
+std::vector<SurfaceEntry> frames_with(const fs::path& folder, const SurfaceIndex& origin,
+                                      const std::vector<double>& times) {
+  const SurfaceIndex index = read_index(folder / index_file);
+  std::vector<SurfaceEntry> frames = all_frames(index);
+  const auto there = [&](const SurfaceEntry& each) {
+    return std::ranges::all_of(each.files,
+                               [&](const auto& file) { return file == sequence_file || fs::exists(folder / file); });
+  };
+  bool good = (times.empty() || index.same_origin(origin)) && frames.size() >= times.size();
+  for (std::size_t k = 0; good && k < times.size(); ++k) good = frames[k].time == times[k] && there(frames[k]);
+  if (good) return frames;
+  throw FileError(fmt::format(
+      "{}: the {} surfaces that the run had made are not there any more, or others are: put them back, or go on without "
+      "surfaces, with `--set output.surface.formats=[]`, and make them of the frames with `sessile mesh`",
+      folder.string(), times.size()));
+}
+
 /// Removes the files that hold a frame's surface.
 void remove_files(const fs::path& folder, const SurfaceEntry& entry) {
   std::error_code ignored;
@@ -68,7 +104,9 @@ void remove_surfaces(const fs::path& folder) {
   std::error_code ignored;
   for (const SurfaceEntry& each : index.frames) remove_files(folder, each);
   for (const SurfaceIndex::Solid& each : index.solids) fs::remove(folder / each.file, ignored);
+  remove_usda_parts(folder / sequence_file);
   if (index.source.empty()) return;
+  fs::remove(folder / sequence_file, ignored);  // not listed while a run goes on with it
   fs::remove(folder / collection_file, ignored);
   fs::remove(folder / index_file, ignored);
   if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
@@ -94,26 +132,25 @@ Vec3d up_of(const Scene& scene) {
   return {-scene.gravity.x / strength + 0.0, -scene.gravity.y / strength + 0.0, -scene.gravity.z / strength + 0.0};
 }
 
+void require_surfaces(const fs::path& folder, const fs::path& source, const Scene& scene, const SurfacePlan& plan,
+                      const std::vector<double>& times) {
+  frames_with(folder, origin_of(folder, source, scene, plan), times);
+}
+
 SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scene& scene, SurfacePlan plan,
-                             std::optional<std::size_t> keep)
+                             const std::optional<std::vector<double>>& kept)
     : folder_(std::move(folder)),
       lock_(folder_),
       plan_(std::move(plan)),
-      resumable_(keep.has_value()),
+      resumable_(kept.has_value()),
       formats_(formats_named(plan_.formats)),
-      solids_(solid_meshes(scene)) {
-  index_.source = fs::absolute(source).lexically_normal().lexically_proximate(fs::absolute(folder_).lexically_normal());
-  index_.spacing = plan_.spacing;
-  index_.up = up_of(scene);
-  index_.settings = on_one_line(to_json(plan_.settings));
-  SurfaceIndex before = read_index(folder_ / index_file);
-  if (keep != std::size_t{0} && before.same_origin(index_)) {
+      solids_(solid_meshes(scene)),
+      index_(origin_of(folder_, source, scene, plan_)) {
+  if (kept && !kept->empty()) {
+    index_.frames = frames_with(folder_, index_, *kept);
+    keep_first(kept->size());
+  } else if (SurfaceIndex before = read_index(folder_ / index_file); !kept && before.same_origin(index_)) {
     index_.frames = std::move(before.frames);
-    if (keep) {
-      std::ranges::move(before.waiting, std::back_inserter(index_.frames));
-      std::ranges::sort(index_.frames, {}, &SurfaceEntry::number);
-      keep_first(*keep);
-    }
   } else {
     remove_surfaces(folder_);  // not the folder itself: the lock is in it
   }
@@ -123,20 +160,13 @@ SurfaceFolder::SurfaceFolder(fs::path folder, const fs::path& source, const Scen
 
 /// Goes back to when there were so many surfaces.
 void SurfaceFolder::keep_first(std::size_t count) {
-  if (index_.frames.size() < count) {
-    throw FileError(
-        fmt::format("{}: holds {} of the {} surfaces that had been made; without a block output.surface, "
-                    "`sessile mesh` makes them from frames",
-                    folder_.string(), index_.frames.size(), count));
+  if (std::ranges::any_of(formats_, [](const auto* format) { return is_sequence(*format); })) {
+    sequence_.emplace(folder_ / sequence_file, plan_.frames_per_second, count, index_.frames[count - 1].time);
   }
-  for (std::size_t k = count; k < index_.frames.size(); ++k) {
-    std::erase(index_.frames[k].files, sequence_file);  // it holds the others too
-    remove_files(folder_, index_.frames[k]);
-  }
-  index_.frames.resize(count);
-  if (std::none_of(formats_.begin(), formats_.end(), [](const auto* format) { return is_sequence(*format); })) return;
   for (SurfaceEntry& each : index_.frames) std::erase(each.files, sequence_file);
-  sequence_.emplace(folder_ / sequence_file, plan_.frames_per_second, count, index_.frames.back().time);
+  for (std::size_t k = count; k < index_.frames.size(); ++k) remove_files(folder_, index_.frames[k]);
+  index_.frames.resize(count);
+  if (!sequence_) return;
   for (const SurfaceEntry& each : index_.frames) sequence_frames_.push_back(each.number);
 }
 

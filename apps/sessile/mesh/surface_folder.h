@@ -38,16 +38,20 @@ void write_surface(const std::filesystem::path& file, const SurfaceFormat& forma
 /// The direction against gravity; up the z axis without any.
 Vec3d up_of(const Scene& scene);
 
+/// Throws FileError, with what can be done, unless a run can go on with the surfaces of these times that it has made [s].
+void require_surfaces(const std::filesystem::path& folder, const std::filesystem::path& source, const Scene& scene,
+                      const SurfacePlan& plan, const std::vector<double>& times);
+
 /// A folder of surfaces: a file per frame and format, the solids, and surface.json, which tells what is there. Each
 /// file is whole, and surface.json lists whole ones only.
 class SurfaceFolder {
  public:
   /// Makes the folder and writes the solids. Of what lies there already, surfaces of the same particles and settings
-  /// stay listed, the first `keep` of them; others are removed. `source` is the folder of the particles.
-  /// Throws FileError, also when fewer than `keep` are there, and FolderInUse while another process writes surfaces
-  /// there.
+  /// stay listed, of a run that goes on those of the times `kept` alone [s]; others are removed. `source` is the folder
+  /// of the particles. Throws FileError, and changes nothing, when surfaces of those times are not there; FolderInUse
+  /// while another process writes surfaces there.
   SurfaceFolder(std::filesystem::path folder, const std::filesystem::path& source, const Scene& scene, SurfacePlan plan,
-                std::optional<std::size_t> keep);
+                const std::optional<std::vector<double>>& kept);
 
   /// Frees the list of frames that are no longer among the source's.
   void keep_only(const std::vector<ResultFrame>& frames);

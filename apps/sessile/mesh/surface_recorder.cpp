@@ -13,16 +13,25 @@ double interval_of(const Output& output) {
   return output.surface ? output.surface->interval.value_or(output.frame_interval) : output.frame_interval;
 }
 
+/// How a run makes its surfaces.
+SurfacePlan plan_of(const Scene& scene) {
+  const SurfaceOutput& asked = *scene.output.surface;
+  return {static_cast<const SurfaceSettings&>(asked), asked.formats, scene.spacing, 1 / interval_of(scene.output)};
+}
+
+bool makes_files(const Scene& scene) { return scene.output.surface && !scene.output.surface->formats.empty(); }
+
 }  // namespace
+
+void require_surfaces(const std::filesystem::path& results, const Scene& scene, const std::vector<double>& times) {
+  if (makes_files(scene)) require_surfaces(results / surface_folder_name, results, scene, plan_of(scene), times);
+}
 
 SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& results, const Scene& scene, std::vector<double> times)
     : asked_(scene.output.surface),
       schedule_(interval_of(scene.output), times.empty() ? std::nullopt : std::optional(times.back())),
       times_(std::move(times)) {
-  if (!asked_ || asked_->formats.empty()) return;
-  SurfacePlan plan{static_cast<const SurfaceSettings&>(*asked_), asked_->formats, scene.spacing,
-                   1 / interval_of(scene.output)};
-  folder_.emplace(results / surface_folder_name, results, scene, std::move(plan), times_.size());
+  if (makes_files(scene)) folder_.emplace(results / surface_folder_name, results, scene, plan_of(scene), times_);
 }
 
 void SurfaceRecorder::record(const Simulation& simulation) {

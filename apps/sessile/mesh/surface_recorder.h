@@ -12,6 +12,9 @@
 
 namespace sessile::app {
 
+/// Throws FileError unless a run can go on with the surfaces of these times that it has made into its results [s].
+void require_surfaces(const std::filesystem::path& results, const Scene& scene, const std::vector<double>& times);
+
 /// Makes the surfaces that a scene asks for while it runs: files in the folder surface of its results, and the
 /// surface's measures for stats.csv.
 class SurfaceRecorder {

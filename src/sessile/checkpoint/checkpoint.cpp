@@ -59,9 +59,10 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
   Header header;
   header.raw_bytes = writer.raw_bytes();
   header.checksum = checksum(header, content);
-  std::string bytes(magic);
-  bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
-  return bytes + content;
+  std::string bytes;
+  bytes.reserve(header_bytes + content.size());
+  bytes.append(magic).append(reinterpret_cast<const char*>(&header), sizeof header).append(content);
+  return bytes;
 }
 
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name, std::uint64_t most) {
@@ -72,24 +73,26 @@ Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name, st
   std::memcpy(&header, bytes.data() + magic.size(), sizeof header);
   const std::string_view content = bytes.substr(header_bytes);
   // A newer format may count its checksum in another way, so that its number comes first.
-  if (header.format == 0 || header.format > checkpoint_format) {
-    refuse(
-        fmt::format("this checkpoint is of format {}, and this program reads up to format {}: a newer Sessile "
+  if (header.format > checkpoint_format) {
+    throw ForeignCheckpoint(
+        fmt::format("{}: this checkpoint is of format {}, and this program reads up to format {}: a newer Sessile "
                     "goes on from it",
-                    header.format, checkpoint_format));
+                    name, header.format, checkpoint_format));
   }
-  if (header.checksum != checksum(header, content)) {
+  if (header.format == 0 || header.checksum != checksum(header, content)) {
     refuse("this checkpoint is damaged or cut short: its checksum does not match");
   }
   if (header.real_bytes != sizeof(Real)) {
-    refuse(fmt::format("this checkpoint is of a build with {}-bit numbers, and this one has {}-bit numbers",
-                       8 * header.real_bytes, 8 * sizeof(Real)));
+    throw ForeignCheckpoint(
+        fmt::format("{}: this checkpoint is of a build with {}-bit numbers, and this one has {}-bit numbers", name,
+                    8 * header.real_bytes, 8 * sizeof(Real)));
   }
   if (header.raw_bytes > (most > 0 ? most : physical_memory())) {
     refuse(fmt::format("this checkpoint tells of {:.3g} GiB, which is more than there is memory for",
                        static_cast<double>(header.raw_bytes) / (1 << 30)));
   }
   Checkpoint checkpoint;
+  checkpoint.format = header.format;
   try {
     const std::string raw = decompressed(content, header.raw_bytes);
     StateReader reader(raw);

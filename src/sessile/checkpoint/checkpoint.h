@@ -6,9 +6,13 @@
 #include <string>
 #include <string_view>
 
+#include "sessile/core/error.h"
 #include "sessile/simulation_state.h"
 
 namespace sessile {
+
+/// The newest format that this program reads and the one it writes; older ones are read too.
+inline constexpr std::uint32_t checkpoint_format = 1;
 
 /// A run as it stood between two steps: all it takes to go on from there, bit for bit.
 struct Checkpoint {
@@ -17,10 +21,14 @@ struct Checkpoint {
   std::string scene_json;  ///< the resolved scene
   std::string session;     ///< what the program that runs the simulation adds of its own, as JSON
   SimulationState state;
+  std::uint32_t format = checkpoint_format;  ///< of the file that it was read from
 };
 
-/// The newest format that this program reads and the one it writes; older ones are read too.
-inline constexpr std::uint32_t checkpoint_format = 1;
+/// A checkpoint that may be as whole as any, and that this program cannot read: of a newer format, or of a build with
+/// the other precision.
+struct ForeignCheckpoint : FileError {
+  using FileError::FileError;
+};
 
 /// The file's bytes. All numbers are little-endian:
 ///   8 bytes "SESSILE\n", u32 format, u32 bytes of a Real, u64 length of the content, u64 checksum (XXH3 of all that
@@ -28,8 +36,8 @@ inline constexpr std::uint32_t checkpoint_format = 1;
 std::string encode_checkpoint(const Checkpoint& checkpoint);
 
 /// Reads the bytes of a file; `name` stands for it in messages. `most`: content that is longer is refused [bytes]; 0
-/// for what the machine's memory holds. Throws FileError: not a checkpoint, cut short, damaged, of a newer format, of
-/// the other precision, too large.
+/// for what the machine's memory holds. Throws ForeignCheckpoint, and FileError: not a checkpoint, cut short, damaged,
+/// too large.
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name, std::uint64_t most = 0);
 
 /// Writes it whole or not at all. Throws FileError.

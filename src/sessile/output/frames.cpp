@@ -28,4 +28,12 @@ std::string frame_file_name(std::int64_t number, std::string_view format) {
 
 std::string solids_file_name(std::string_view format) { return fmt::format("solids.{}", format); }
 
+std::string encode_collection(std::span<const double> times) {
+  std::vector<TimedFile> files;
+  for (const double time : times) {
+    files.push_back({time, frame_file_name(static_cast<std::int64_t>(files.size()), "vtp")});
+  }
+  return encode_pvd(files);
+}
+
 }  // namespace sessile

@@ -48,4 +48,8 @@ struct TimedFile {
 /// ParaView collection (.pvd) that gives each file its physical time [s].
 std::string encode_pvd(std::span<const TimedFile> frames);
 
+/// The collection of a run's frames, which are numbered from 0: its file's name, and its text for their times [s].
+inline constexpr std::string_view collection_file_name = "frames.pvd";
+std::string encode_collection(std::span<const double> times);
+
 }  // namespace sessile

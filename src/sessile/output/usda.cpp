@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "sessile/core/error.h"
+#include "sessile/output/durable.h"
 #include "sessile/output/surfaces.h"
 
 namespace sessile {
@@ -98,20 +99,64 @@ void copy(const std::filesystem::path& from, LineFile& to) {
   if (!in.eof()) throw FileError(fmt::format("cannot read {}: {}", from.string(), std::strerror(errno)));
 }
 
+// Stands in the names of parts that do not hold all yet that they are to hold.
+constexpr std::string_view unfinished = "new.";
+
+/// Removes parts of a file; `kept`: but those that have this in their names, if it is not empty.
+void remove_parts(const std::filesystem::path& file, std::string_view kept) {
+  const std::string stem = fmt::format(".{}.", file.filename().string());
+  std::vector<std::filesystem::path> parts;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path(), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(stem) || !name.ends_with(".part")) continue;
+    if (kept.empty() || !std::string_view(name).substr(stem.size()).starts_with(kept)) parts.push_back(entry.path());
+  }
+  for (const auto& part : parts) std::filesystem::remove(part, ignored);
+}
+
 }  // namespace
 
-UsdaWriter::UsdaWriter(std::filesystem::path file, double frames_per_second)
-    : file_(std::move(file)), rate_(frames_per_second) {}
+void remove_usda_parts(const std::filesystem::path& file) { remove_parts(file, ""); }
 
+UsdaWriter::UsdaWriter(std::filesystem::path file, double frames_per_second)
+    : file_(std::move(file)), rate_(frames_per_second) {
+  remove_usda_parts(file_);
+}
+
+// Parts are newer than a file beside them: that one is of an earlier end, from which a writer went on that was killed.
+// So it goes as soon as there are parts, which are there as soon as the first of them is.
 UsdaWriter::UsdaWriter(std::filesystem::path file, double frames_per_second, std::size_t count, double until)
-    : UsdaWriter(std::move(file), frames_per_second) {
-  if (count == 0) return;
-  // A writer that went on with a file and was killed leaves that file, which may be too short, beside its own parts.
-  if (take_from_file(until * rate_) < count && take_from_parts(until * rate_) < count) {
-    throw FileError(fmt::format("cannot go on with {}: it lacks frames that had been written", file_.string()));
+    : file_(std::move(file)), rate_(frames_per_second) {
+  if (count == 0) {
+    remove_usda_parts(file_);
+    return;
   }
-  code_ = until * rate_;
-  any_ = true;
+  const double last = until * rate_;
+  if (take_from_parts(last) < count) {
+    attributes_.clear();
+    naming_ = unfinished;
+    if (take_from_file(last) < count) {
+      for (const Attribute& each : attributes_) std::filesystem::remove(each.file);
+      throw FileError(fmt::format("cannot go on with {}: it lacks frames that had been written", file_.string()));
+    }
+    name_parts();
+  }
+  std::filesystem::remove(file_);
+  code_ = last;
+  any_ = leaves_parts_ = true;
+}
+
+/// Gives files that hold all that was taken from the finished one the names of parts, the first of them last.
+void UsdaWriter::name_parts() {
+  sync();
+  remove_parts(file_, unfinished);
+  naming_ = "";
+  for (std::size_t k = attributes_.size(); k-- > 0;) {
+    std::filesystem::rename(attributes_[k].file, part_of(k));
+    attributes_[k].file = part_of(k);
+  }
+  sync_folder(file_.parent_path());
 }
 
 UsdaWriter::~UsdaWriter() {
@@ -126,7 +171,7 @@ void UsdaWriter::sync() const {
 }
 
 std::filesystem::path UsdaWriter::part_of(std::size_t attribute) const {
-  return part_name(file_.parent_path() / fmt::format("{}.{}", file_.filename().string(), attribute));
+  return part_name(file_.parent_path() / fmt::format("{}.{}{}", file_.filename().string(), naming_, attribute));
 }
 
 /// The attribute of this name; its file begins with a line that says what it holds.
@@ -170,9 +215,8 @@ std::size_t UsdaWriter::take_from_file(double until) {
   return frames;
 }
 
-/// The same from the files that a writer left when it was killed. Replaces what has been taken so far.
+/// The same from the files that a writer left when it was killed.
 std::size_t UsdaWriter::take_from_parts(double until) {
-  attributes_.clear();
   std::size_t frames = 0;
   for (std::size_t k = 0;; ++k) {
     const auto part = part_of(k);

@@ -14,16 +14,20 @@
 
 namespace sessile {
 
+/// Removes what a writer of this file left that had not finished.
+void remove_usda_parts(const std::filesystem::path& file);
+
 /// Writes a surface over time as one USD file in text: a UsdGeomMesh /World/surface with time samples of its points,
 /// faces, normals, velocities and columns, and the solids beside it. Frames wait in files of their own, one for each
 /// attribute, until finish() joins them: none stays in memory.
 class UsdaWriter {
  public:
-  /// `frames_per_second` of simulated time: a time code is a frame. Throws FileError.
+  /// `frames_per_second` of simulated time: a time code is a frame. Removes what another writer of the file has left.
   UsdaWriter(std::filesystem::path file, double frames_per_second);
 
-  /// Goes on with the first `count` frames, the last of them of time `until` [s], of a writer of the same file that has
-  /// finished or was killed. Throws FileError when they are not there.
+  /// Goes on with the first `count` frames, the last of them of time `until` [s], of a writer of the same
+  /// file that has finished or was killed. The finished file goes: it is of another end than this writer's. Throws
+  /// FileError when the frames are not there.
   UsdaWriter(std::filesystem::path file, double frames_per_second, std::size_t count, double until);
 
   /// From now on, what has not been joined stays for a writer that goes on with it.
@@ -55,10 +59,12 @@ class UsdaWriter {
   Attribute& attribute(std::string_view type_and_name, std::string_view brackets);
   std::size_t take_from_file(double until);
   std::size_t take_from_parts(double until);
+  void name_parts();
   void sample(std::string_view type_and_name, std::string_view brackets, const std::string& value);
   void column(const Column& column);
 
   std::filesystem::path file_;
+  std::string naming_;  // stands in the names of parts that are not whole yet
   double rate_;
   double code_ = 0, first_code_ = 0;  // of the last frame, of the first one
   bool any_ = false, leaves_parts_ = false;

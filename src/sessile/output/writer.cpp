@@ -118,20 +118,17 @@ void FrameWriter::work() {
 }
 
 void FrameWriter::write(const Snapshot& snapshot) {
-  std::vector<TimedFile> collection;
-  const auto listed = [&](std::int64_t frame, double time) {
-    collection.push_back({time, frame_file_name(frame, "vtp")});
-  };
-  std::int64_t number = 0;
+  std::vector<double> times;
   {
     const std::lock_guard lock(mutex_);
-    for (const double time : times_) listed(number++, time);
+    times = times_;
   }
-  listed(number, snapshot.time);
+  const auto number = static_cast<std::int64_t>(times.size());
+  times.push_back(snapshot.time);
   for (const FrameFormat* format : formats_) {
     const std::string name = frame_file_name(number, format->name);
     write_whole(folder_ / name, format->encode(snapshot));
-    if (format->name == "vtp") write_whole(folder_ / "frames.pvd", encode_pvd(collection));
+    if (format->name == "vtp") write_whole(folder_ / collection_file_name, encode_collection(times));
   }
 }
 

@@ -25,8 +25,9 @@ struct ResolvedScene {
   std::string locate(const Fault& fault) const;
 };
 
-/// Where the meshes that a scene names may lie. One that an override names may lie anywhere.
-enum class MeshPlaces { in_its_folder, anywhere };
+/// Where the meshes that a scene names may lie. One that an override names may lie anywhere. `unasked`: anywhere, and
+/// nobody asks whether they are there, since not all of them will be read.
+enum class MeshPlaces { in_its_folder, anywhere, unasked };
 
 /// Judges what the parts of a scene make together, beside validate(); such as check_output().
 using FurtherCheck = std::function<std::vector<Fault>(const Scene&)>;

@@ -182,7 +182,7 @@ void ValueReader::resolve_file(const Json::Value& json, const std::string& path,
           in_quotes(file) +
               " lies outside the scene's folder: --allow-outside lets a scene read there, "
               "or move the file beside the scene");
-  } else if (!std::filesystem::is_regular_file(resolved, error)) {
+  } else if (places_ != MeshPlaces::unasked && !std::filesystem::is_regular_file(resolved, error)) {
     const std::string why = error ? error.message() : "it is no file";
     fault(json, path, "cannot read " + in_quotes(file) + ": " + why);
   }
