@@ -46,8 +46,7 @@ void check_checkpoint(const CheckOptions& options) {
     say(stdout, checkpoint.scene_json + "\n");
     return;
   }
-  const Scene scene =
-      read_resolved_text(checkpoint.scene_json, options.scene, {}, {}, MeshPlaces::unasked).scene;
+  const Scene scene = read_resolved_text(checkpoint.scene_json, options.scene, {}, {}, MeshPlaces::unasked).scene;
   const SimulationState& state = checkpoint.state;
   const Totals& totals = state.totals;
   std::string text = fmt::format("{}: a whole checkpoint, of format {}\n", options.scene, checkpoint.format);

@@ -63,9 +63,9 @@ void refuse_changes(const Scene& before, const Scene& wanted, const SimulationSt
     }
   }
   if (wanted.time.end < before.time.end && wanted.time.end < state.time - rounding(state)) {
-    faults.push_back(fmt::format(
-        "time.end: the run is at {:.9g} s already, beyond {:g} s; --at goes on from an earlier checkpoint", state.time,
-        wanted.time.end));
+    faults.push_back(
+        fmt::format("time.end: the run is at {:.9g} s already, beyond {:g} s; --at goes on from an earlier checkpoint",
+                    state.time, wanted.time.end));
   }
   if (!faults.empty()) throw SceneError(std::move(faults));
 }

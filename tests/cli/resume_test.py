@@ -1,98 +1,13 @@
-"""`sessile run --resume`: a run that is killed, interrupted or goes on later leaves the files of one that never stopped."""
+"""`sessile run --resume`: a run that is interrupted or goes on later leaves the files of one that never stopped."""
+import fcntl
 import json
-import random
 import re
 import shutil
 import time
 
-from sessile_cli import BAD_INPUT, DONE, FAILED, CliTest, signal, tiny, unittest
-
-
-def lively(**changes):
-    """A scene that uses all that a checkpoint holds: a jet on a plate, an open domain, surfaces, a changing step."""
-    output = {"frame_interval": 0.01, "stats_interval": 0.005, "formats": ["vtp", "ply"],
-              "surface": {"formats": ["ply", "usda"], "interval": 0.02, "stats": True},
-              "checkpoint": {"interval": 0.004, "keep": 3}}
-    output.update(changes.pop("output", {}))
-    return tiny(title="a jet", time={"end": 0.2},
-                domain={"min": [-0.45, -0.45, -0.5], "max": [0.45, 0.45, 1.2], "x": "open", "y": "open", "z": "open"},
-                emitters=[{"shape": {"type": "rectangle", "width": 0.3, "depth": 0.3},
-                           "placement": {"position": [0, 0, 1.1]}, "velocity": [0, 0, -3], "interval": 0.04}],
-                output=output, **changes)
-
-
-class ResumeTest(CliTest):
-    def run_scene(self, scene, folder, *arguments, **how):
-        return self.call("run", self.write(scene, folder + ".json"), "-o", folder, "--progress", "none", *arguments, **how)
-
-    def resume(self, folder, *arguments, **how):
-        return self.call("run", "--resume", folder, "--progress", "none", *arguments, **how)
-
-    def results(self, folder):
-        """What a run leaves behind, by name: bytes, but for times of the wall and memory. Checkpoints by their names."""
-        found = {}
-        for path in sorted((self.folder / folder).rglob("*")):
-            name = str(path.relative_to(self.folder / folder))
-            if path.is_dir() or name.startswith("checkpoints/") or name == ".sessile.lock":
-                continue
-            if name == "summary.json":
-                summary = json.loads(path.read_text())
-                for key in ("wall_time_s", "memory_bytes"):
-                    del summary[key]
-                found[name] = summary
-            else:
-                found[name] = path.read_bytes()
-        return found
-
-    def assert_same(self, folder, other):
-        first, second = self.results(folder), self.results(other)
-        self.assertEqual(sorted(first), sorted(second))
-        for name, content in first.items():
-            self.assertTrue(content == second[name], f"{name} differs in {other}")
-
-    def checkpoints(self, folder):
-        return sorted(path.name for path in (self.folder / folder / "checkpoints").glob("checkpoint_*.sessile"))
-
-
-class Killed(ResumeTest):
-    def test_twenty_kills_leave_no_trace(self):
-        start = time.monotonic()
-        self.run_scene(lively(), "whole")
-        lasts = time.monotonic() - start
-        moments = random.Random(6)
-        self.write(lively(), "killed.json")
-        kills = resumes = 0
-        while kills < 20:
-            begun = self.checkpoints("killed")
-            run = self.start("run", *(["--resume", "killed"] if begun else ["killed.json", "-o", "killed"]),
-                             "--progress", "none")
-            time.sleep(moments.uniform(0.02, 0.6 * lasts + 0.05))
-            if run.poll() is not None:
-                self.assertEqual(run.returncode, DONE, run.stderr.read())
-                shutil.rmtree(self.folder / "killed")  # it got to the end: from the start again
-                continue
-            run.send_signal(signal.SIGKILL)
-            run.wait()
-            kills += 1
-            resumes += bool(begun)
-            for path in (self.folder / "killed").rglob("frame_*.vtp"):
-                if not path.name.startswith("."):
-                    self.assertTrue(path.read_bytes().rstrip().endswith(b"</VTKFile>"), f"{path} is torn")
-        self.assertGreater(resumes, 5, "hardly any run was killed after it had been resumed")
-        if self.checkpoints("killed"):
-            self.resume("killed")
-        else:
-            self.run_scene(lively(), "killed")
-        self.assert_same("whole", "killed")
-
-    def test_a_torn_checkpoint_is_passed_over(self):
-        self.run_scene(lively(), "whole")
-        self.run_scene(lively(), "out", "--until", "0.1")
-        newest = self.folder / "out/checkpoints" / self.checkpoints("out")[-1]
-        newest.write_bytes(newest.read_bytes()[:-7])
-        _, err = self.call("run", "--resume", "out", "--until", "0.2", "--progress", "plain")
-        self.assertIn("damaged or cut short: its checksum does not match", err)
-        self.assert_same("whole", "out")
+from frames import read_pvd
+from resume_cli import ResumeTest, lively
+from sessile_cli import BAD_INPUT, FAILED, IN_USE, signal, unittest
 
 
 class Interrupted(ResumeTest):
@@ -131,6 +46,30 @@ class Interrupted(ResumeTest):
         self.assertRegex(err, r"out: there is no checkpoint to go on from at 0.001 s; the earliest is of 0\.03\d* s")
         self.assert_same("whole", "out")
 
+    def test_at_the_time_of_a_checkpoint(self):
+        """Times are sums of steps: 0.12 is 0.12000000000000004."""
+        scene = lively(time={"end": 0.2, "fixed_dt": 0.005}, output={"checkpoint": {"interval": 0.03, "keep": 100}})
+        self.run_scene(scene, "out")
+        for name in self.checkpoints("out")[::-1]:
+            said = re.search(r"simulated time  (\S+) of", self.call("check", f"out/checkpoints/{name}")[0])[1]
+            self.resume("out", "--at", said, "--until", said)  # so that nothing but its files stay
+            self.assertEqual(self.checkpoints("out")[-1], name)
+            self.assert_whole("out")
+
+    def test_an_end_before_where_it_is(self):
+        self.run_scene(lively(), "out")
+        before = self.results("out")
+        _, err = self.resume("out", "--until", "0.05", code=BAD_INPUT)
+        self.assertRegex(err, r"time.end: the run is at 0\.2\d* s already, beyond 0\.05 s; --at goes on from an earlier")
+        self.assertEqual(self.results("out"), before)
+
+    def test_an_end_that_rounding_comes_short_of(self):
+        self.run_scene(lively(time={"end": 0.06, "fixed_dt": 0.005}), "out")
+        self.assertLess(self.summary()["simulated_time_s"], 0.06)
+        before = self.results("out")
+        self.assertIn("its end; --until lets it go on", self.resume("out")[1])
+        self.assertEqual(self.results("out"), before)
+
     def test_keeps_the_newest_only(self):
         self.run_scene(lively(), "out")
         self.assertEqual(len(self.checkpoints("out")), 3)
@@ -162,6 +101,32 @@ class Changes(ResumeTest):
             self.assertIn(message, err)
         self.assertEqual(self.results("out"), before, "a refused call changed something")
 
+    def test_surfaces_end_where_others_have_taken_their_place(self):
+        """`sessile mesh` makes its own surfaces of the frames: those of the run are gone, and it says so."""
+        for change in (lambda: self.call("mesh", "out", "--set", "cube_size=1"), lambda: self.call("mesh", "out"),
+                       lambda: shutil.rmtree(self.folder / "out/surface")):
+            change()
+            before, names = self.results("out"), self.checkpoints("out")
+            _, err = self.resume("out", "--until", "0.2", code=FAILED)
+            self.assertIn("out/surface: the 6 surfaces that the run had made are not there any more, or others are", err)
+            self.assertNotIn("then go on with", err)
+            self.assertEqual((self.results("out"), self.checkpoints("out")), (before, names), "a refused call changed something")
+        self.resume("out", "--until", "0.2", "--set", "output.surface.formats=[]")
+        self.assertEqual(self.summary()["frames"], 21)
+
+    def test_nothing_is_touched_where_files_are_missing(self):
+        (self.folder / "out/surface/.sessile.lock").touch()
+        with open(self.folder / "out/surface/.sessile.lock") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            before, names = self.results("out"), self.checkpoints("out")
+            self.resume("out", "--at", "0.098", "--until", "0.2", code=IN_USE)
+            self.assertEqual((self.results("out"), self.checkpoints("out")), (before, names))
+        (self.folder / "out/stats.csv").unlink()
+        before = self.results("out")
+        _, err = self.resume("out", "--at", "0.098", "--until", "0.2", code=FAILED)
+        self.assertEqual(err, "sessile: cannot go on with out/stats.csv: No such file or directory\n")
+        self.assertEqual((self.results("out"), self.checkpoints("out")), (before, names))
+
     def test_usage(self):
         for words, message in {
             (): "a SCENE, or --resume DIR, is required",
@@ -180,6 +145,7 @@ class Changes(ResumeTest):
         _, err = self.call("run", "--resume", "out", "--until", "0.2", code=FAILED)
         self.assertIn("cannot go on with out/stats.csv: it is shorter than it was", err)
 
+
     def test_check_describes_a_checkpoint(self):
         name = "out/checkpoints/" + self.checkpoints("out")[-1]
         out, _ = self.call("check", name)
@@ -191,6 +157,34 @@ class Changes(ResumeTest):
         (self.folder / name).write_bytes((self.folder / name).read_bytes()[:1000])
         _, err = self.call("check", name, code=FAILED)
         self.assertIn("damaged or cut short", err)
+
+
+class Meshes(ResumeTest):
+    CUBE = "".join(f"v {x} {y} {z}\n" for x in (0, 0.3) for y in (0, 0.3) for z in (0, 0.3)) + \
+        "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
+
+    def test_where_they_are_not_any_more(self):
+        """Of the liquid they are not needed; those of solids may have moved, and must be the same."""
+        for name in ("body.obj", "solid.obj", "other.obj"):
+            self.write(self.CUBE.replace("0.3", "0.4") if name == "other.obj" else self.CUBE, name)
+        scene = lively(bodies=[{"shape": {"type": "mesh", "file": "body.obj"}, "placement": {"position": [0, 0, 0.5]}}],
+                       solids=[{"shape": {"type": "mesh", "file": "solid.obj"}, "placement": {"position": [0, 0, 0.05]}}])
+        self.run_scene(scene, "whole")
+        self.run_scene(scene, "out", "--until", "0.1")
+        (self.folder / "body.obj").unlink()
+        (self.folder / "solid.obj").rename(self.folder / "moved.obj")
+        checkpoint = "out/checkpoints/" + self.checkpoints("out")[-1]
+        self.assertIn("a whole checkpoint", self.call("check", checkpoint)[0])
+        _, err = self.resume("out", "--until", "0.2", code=FAILED)
+        self.assertIn("solid.obj: cannot be read", err)
+        place = "solids[0].shape.file=" + str(self.folder)
+        _, err = self.resume("out", "--until", "0.2", "--set", place + "/other.obj", code=BAD_INPUT)
+        self.assertIn("the solids are not those of the state", err)
+        self.resume("out", "--until", "0.2", "--set", place + "/moved.obj")
+        first, second = self.results("whole"), self.results("out")
+        for result in (first, second):
+            del result["scene.json"], result["summary.json"]
+        self.assertEqual(first, second)
 
 
 if __name__ == "__main__":

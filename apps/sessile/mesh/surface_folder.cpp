@@ -85,10 +85,11 @@ std::vector<SurfaceEntry> frames_with(const fs::path& folder, const SurfaceIndex
   bool good = (times.empty() || index.same_origin(origin)) && frames.size() >= times.size();
   for (std::size_t k = 0; good && k < times.size(); ++k) good = frames[k].time == times[k] && there(frames[k]);
   if (good) return frames;
-  throw FileError(fmt::format(
-      "{}: the {} surfaces that the run had made are not there any more, or others are: put them back, or go on without "
-      "surfaces, with `--set output.surface.formats=[]`, and make them of the frames with `sessile mesh`",
-      folder.string(), times.size()));
+  throw FileError(
+      fmt::format("{}: the {} surfaces that the run had made are not there any more, or others are: put them back, or "
+                  "go on without "
+                  "surfaces, with `--set output.surface.formats=[]`, and make them of the frames with `sessile mesh`",
+                  folder.string(), times.size()));
 }
 
 /// Removes the files that hold a frame's surface.

@@ -38,7 +38,8 @@ void write_surface(const std::filesystem::path& file, const SurfaceFormat& forma
 /// The direction against gravity; up the z axis without any.
 Vec3d up_of(const Scene& scene);
 
-/// Throws FileError, with what can be done, unless a run can go on with the surfaces of these times that it has made [s].
+/// Throws FileError, with what can be done, unless a run can go on with the surfaces of these times that it has made
+/// [s].
 void require_surfaces(const std::filesystem::path& folder, const std::filesystem::path& source, const Scene& scene,
                       const SurfacePlan& plan, const std::vector<double>& times);
 
