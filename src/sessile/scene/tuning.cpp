@@ -16,7 +16,7 @@ namespace {
 // type stays; forces keep nothing.
 constexpr auto changeable =
     std::to_array<std::string_view>({"title", "gravity", "time", "fluid.viscosity", "forces[]", "pressure",
-                                     "solids[].adhesion", "solids[].viscosity", "stability", "output"});
+                                     "solids[].adhesion", "solids[].viscosity", "stability", "output", "render"});
 constexpr auto fixed = std::to_array<std::string_view>({"pressure", "pressure.type"});
 
 /// The path without the places in lists: "forces[].cohesion".
