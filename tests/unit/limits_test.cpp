@@ -39,6 +39,22 @@ TEST_F(Limits, NestingOfASceneIs64Levels) {
   EXPECT_EQ(faults(nested(1'000'000)), (Lines{"s.json:1: nested more than 64 levels deep"}));
 }
 
+TEST_F(Limits, PathsOfOverridesAre64Levels) {
+  const auto told = [&](const std::string& step, std::size_t levels) {
+    std::string path = "title";
+    for (std::size_t k = 1; k < levels; ++k) path += step;
+    return faults(around_body(""), {path + "=1"});
+  };
+  EXPECT_FALSE(has(told(".a", 64).at(0), "nested more than"));
+  EXPECT_TRUE(told(".a", 65).at(0).ends_with(".a: nested more than 64 levels deep"));
+  for (const char* step : {".a", "[0]"}) {
+    const Lines deep = told(step, 1'000'000);
+    ASSERT_EQ(deep.size(), 1U);
+    EXPECT_TRUE(has(deep[0], "...: nested more than 64 levels deep")) << deep[0];
+    EXPECT_LT(deep[0].size(), 400U);
+  }
+}
+
 TEST_F(Limits, ASceneHoldsTwoMillionValues) {
   std::string list = "[";
   for (int i = 0; i < 2'000'001; ++i) list += "0,";
