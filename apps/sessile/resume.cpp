@@ -4,7 +4,6 @@
 #include <json/json.h>
 
 #include <algorithm>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "sessile/core/error.h"
 #include "sessile/output/check.h"
 #include "sessile/scene/input_file.h"
+#include "sessile/scene/json_text.h"
 #include "sessile/scene/tuning.h"
 #include "sessile/version.h"
 
@@ -63,9 +63,9 @@ void refuse_changes(const Scene& before, const Scene& wanted, const SimulationSt
     }
   }
   if (wanted.time.end < before.time.end && wanted.time.end < state.time - rounding(state)) {
-    faults.push_back(fmt::format(
-        "time.end: the run is at {:.9g} s already, beyond {:g} s; --at goes on from an earlier checkpoint", state.time,
-        wanted.time.end));
+    faults.push_back(
+        fmt::format("time.end: the run is at {:.9g} s already, beyond {:g} s; --at goes on from an earlier checkpoint",
+                    state.time, wanted.time.end));
   }
   if (!faults.empty()) throw SceneError(std::move(faults));
 }
@@ -113,9 +113,9 @@ Resumable open_run(const ResumeOptions& options) {
 bool is_complete(const std::filesystem::path& results, const Simulation& run) {
   try {
     const std::string text = read_input(results / "summary.json", largest_summary);
-    const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
-    Json::Value summary;
-    if (!reader->parse(text.data(), text.data() + text.size(), &summary, nullptr) || !summary.isObject()) return false;
+    const auto parsed = parsed_json(text);
+    if (!parsed || !parsed->isObject()) return false;
+    const Json::Value& summary = *parsed;
     const double beyond = summary["simulated_time_s"].asDouble() - run.scene().time.end, dt = run.last_step().dt;
     return summary["status"] == std::string(word(RunStatus::done)) && beyond >= -1e-6 * dt && beyond < dt;
   } catch (const FileError&) {

@@ -7,6 +7,7 @@
 #include "sessile/results/frame_files.h"
 #include "sessile/results/results.h"
 #include "sessile/scene/input_file.h"
+#include "sessile/scene/json_text.h"
 #include "sessile/scene/mesh_files.h"
 #include "sessile/scene/mesh_sampling.h"
 #include "sessile/scene/sampling.h"
@@ -37,6 +38,21 @@ TEST_F(Limits, NestingOfASceneIs64Levels) {
   EXPECT_EQ(faults(nested(64)), (Lines{"s.json:1: expected a group {...}, found a list of 1"}));
   EXPECT_EQ(faults(nested(65)), (Lines{"s.json:1: nested more than 64 levels deep"}));
   EXPECT_EQ(faults(nested(1'000'000)), (Lines{"s.json:1: nested more than 64 levels deep"}));
+}
+
+TEST_F(Limits, JsonOfOurOwnIsBounded) {
+  const auto list = [](std::size_t n) {
+    std::string text = "[0";
+    for (std::size_t k = 1; k < n; ++k) text += ",0";
+    return text + "]";
+  };
+  EXPECT_TRUE(parsed_json(list(99), 100));  // and the list itself
+  EXPECT_FALSE(parsed_json(list(100), 100));
+  EXPECT_TRUE(parsed_json(R"(["{{{{[[[[,,,,\"[[[[", "\\"])", 5));  // in texts they count for nothing
+  EXPECT_TRUE(parsed_json(std::string(64, '[') + std::string(64, ']')));
+  EXPECT_FALSE(parsed_json(std::string(65, '[') + std::string(65, ']')));
+  EXPECT_FALSE(parsed_json("/* \" */ [0,0,0] /* \" */", 3));  // nor can a comment hide them
+  for (const char* text : {"", "{", "[1", "\"", "\"\\", "{\"a\"}", "]"}) EXPECT_FALSE(parsed_json(text)) << text;
 }
 
 TEST_F(Limits, PathsOfOverridesAre64Levels) {
