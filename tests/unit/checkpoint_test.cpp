@@ -210,6 +210,31 @@ TEST(SimulationState, IsRefusedByAnotherScene) {
   torn = state;
   torn.particles.velocity.y[3] = std::numeric_limits<Real>::quiet_NaN();
   EXPECT_NE(refusal(scene, torn).find("not finite"), std::string::npos);
+  for (const std::int64_t id : {std::int64_t{-5}, state.particles.id[3], state.next_id, std::int64_t{1} << 62}) {
+    torn = state;
+    torn.particles.id[4] = id;
+    EXPECT_NE(refusal(scene, torn).find("do not have a number each"), std::string::npos) << id;
+  }
+  for (const Real mass : {Real(0), Real(-1)}) {
+    torn = state;
+    torn.particles.mass[2] = mass;
+    EXPECT_NE(refusal(scene, torn).find("without a mass"), std::string::npos);
+  }
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  for (std::int64_t Totals::*const count : {&Totals::steps, &Totals::out, &Totals::emitted, &Totals::iterations}) {
+    for (const std::int64_t value : {std::int64_t{-1000}, most}) {
+      torn = state;
+      torn.totals.*count = value;
+      EXPECT_NE(refusal(scene, torn).find("counts below zero, or further"), std::string::npos) << value;
+    }
+  }
+  torn = state;
+  torn.next_id = most;
+  torn.totals.out = most - static_cast<std::int64_t>(state.particles.size());
+  EXPECT_NE(refusal(scene, torn).find("counts below zero, or further"), std::string::npos);
+  torn = state;
+  torn.last_step.dt = -1;
+  EXPECT_NE(refusal(scene, torn).find("no length"), std::string::npos);
   torn = state;
   torn.time = -1;
   EXPECT_NE(refusal(scene, torn).find("no time"), std::string::npos);

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "sessile/output/check.h"
 #include "sessile/output/file.h"
 #include "sessile/output/frames.h"
 #include "sessile/results/frame_files.h"
@@ -11,6 +12,8 @@
 #include "sessile/scene/mesh_files.h"
 #include "sessile/scene/mesh_sampling.h"
 #include "sessile/scene/sampling.h"
+#include "sessile/scene/spelling.h"
+#include "sessile/scene/validate.h"
 #include "sessile/simulation.h"
 #include "unit/scene_files.h"
 #include "unit/temporary_folder.h"
@@ -89,6 +92,45 @@ TEST_F(Limits, OnlyAHundredFaultsAreTold) {
   const Lines told = faults(around_body(keys));
   ASSERT_EQ(told.size(), 101U);
   EXPECT_EQ(told.back(), "s.json: more than 100 faults");
+}
+
+TEST_F(Limits, NoMoreFaultsAreCollectedThanAreTold) {
+  Scene scene = read_resolved_text(around_body("\"emitters\": [], "), "s.json").scene;
+  Emitter emitter;
+  emitter.shape = Disc{0.1};
+  emitter.times.assign(1'000'000, 0);
+  scene.emitters = {emitter};
+  EXPECT_LE(validate(scene).size(), 101U);
+  scene.emitters[0].times.assign(1'000'000, -1);  // each out of its range
+  EXPECT_LE(validate(scene).size(), 101U + 101U);
+  scene.output.columns.assign(1'000'000, "nothing");
+  scene.output.formats.assign(1'000'000, "nothing");
+  EXPECT_EQ(check_output(scene).size(), 101U);
+}
+
+TEST_F(Limits, StepsThatDoNotMoveTheTime) {
+  const auto told = [&](const std::vector<std::string>& overrides) { return faults(around_body(""), overrides); };
+  EXPECT_EQ(told({"time.fixed_dt=1e-14"}), Lines{});
+  EXPECT_EQ(told({"time.fixed_dt=1e-16"}),
+            (Lines{"--set time.fixed_dt: 1e-16 s is less than 1e-15 of time.end, 1 s: the time could not be told from "
+                   "that before the step"}));
+  EXPECT_EQ(told({"time.dt_max=1e-300", "time.dt_min=1e-300"}).size(), 1U);
+  EXPECT_EQ(told({"time.dt_max=1e-300", "time.dt_min=1e-300", "time.fixed_dt=0.1"}), Lines{});
+}
+
+TEST_F(Limits, NothingOfAFileSteersTheTerminal) {
+  EXPECT_EQ(printable("a\x1b[31m\x07\r\nb\x7f"), "a?[31m???b?");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "2J \xc3\xa4 \xc2\xb5"),
+            "?2J \xc3\xa4 \xc2\xb5");
+  EXPECT_EQ(printable(std::string(1000, 'x')), std::string(60, 'x') + "...");
+  std::vector<std::string> names(20'000, "c\x1b[2J");
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  const std::string hint = spelling_hint("nope nope nope", candidates, "fields");
+  EXPECT_EQ(hint.find('\x1b'), std::string::npos);
+  EXPECT_LT(hint.size(), 1000U);
+  EXPECT_EQ(spelling_hint("colour", std::vector<std::string_view>{"colou\x1b"}, "fields"),
+            " (did you mean \"colou?\"?)");
 }
 
 TEST_F(Limits, HugeTextsAndTitlesThatWouldSteerATerminal) {
