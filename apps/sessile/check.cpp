@@ -8,6 +8,7 @@
 #include "sessile/checkpoint/checkpoint.h"
 #include "sessile/core/error.h"
 #include "sessile/scene/describe.h"
+#include "sessile/scene/spelling.h"
 #include "session_state.h"
 
 namespace sessile::app {
@@ -51,7 +52,8 @@ void check_checkpoint(const CheckOptions& options) {
   const Totals& totals = state.totals;
   std::string text = fmt::format("{}: a whole checkpoint, of format {}\n", options.scene, checkpoint.format);
   if (!scene.title.empty()) text += fmt::format("  scene           {}\n", scene.title);
-  text += fmt::format("  written by      version {}, with steps for {}\n", checkpoint.version, checkpoint.isa);
+  text += fmt::format("  written by      version {}, with steps for {}\n", printable(checkpoint.version),
+                      printable(checkpoint.isa));
   text += fmt::format("  simulated time  {:.9g} of {:g} s, after {} steps; the last one {:.3g} s ({})\n", state.time,
                       scene.time.end, totals.steps, state.last_step.dt, state.last_step.bound);
   text += fmt::format("  particles       {}; {} let in, {} out, {} lost\n", state.particles.size(), totals.emitted,

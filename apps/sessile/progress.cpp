@@ -23,7 +23,8 @@ void print_line(const Json::Value& line) {
 }  // namespace
 
 std::string duration_text(double seconds) {
-  const auto whole = std::llround(seconds);
+  constexpr double longest = 1e15;  // beyond it nobody waits, and somewhere no integer holds it
+  const auto whole = std::llround(seconds >= 0 ? std::min(seconds, longest) : 0.0);
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);

@@ -4,7 +4,6 @@
 #include <json/json.h>
 
 #include <algorithm>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -15,6 +14,8 @@
 #include "sessile/core/error.h"
 #include "sessile/output/check.h"
 #include "sessile/scene/input_file.h"
+#include "sessile/scene/json_text.h"
+#include "sessile/scene/spelling.h"
 #include "sessile/scene/tuning.h"
 #include "sessile/version.h"
 
@@ -72,7 +73,12 @@ void refuse_changes(const Scene& before, const Scene& wanted, const SimulationSt
 
 SessionState session_in(const FoundCheckpoint& found) {
   try {
-    return session_of(found.checkpoint.session);
+    SessionState session = session_of(found.checkpoint.session);
+    // Frames are taken between steps.
+    const auto& state = found.checkpoint.state;
+    const auto most = std::max<std::int64_t>(0, state.totals.steps) + 1;
+    if (session.frame_times.size() > static_cast<std::size_t>(most)) throw Error("tells of more frames than steps");
+    return session;
   } catch (const Error& e) {
     throw FileError(fmt::format("{}: this checkpoint {}: it is not one of a run", found.file.string(), e.what()));
   }
@@ -89,13 +95,13 @@ Resumable open_run(const ResumeOptions& options) {
     notes.push_back(
         fmt::format("the steps so far were for {}, this program's are for {}: they round differently, so that "
                     "the run will not be the same to the last bit (SESSILE_ISA={} makes it so)",
-                    checkpoint.isa, isa, checkpoint.isa));
+                    printable(checkpoint.isa), isa, printable(checkpoint.isa)));
   }
   if (checkpoint.version != version()) {
     notes.push_back(
         fmt::format("the run was started by version {}, and this is {}: the rest may differ from what that "
                     "would have made of it",
-                    checkpoint.version, version()));
+                    printable(checkpoint.version), version()));
   }
   // The liquid is in the state: meshes that it was poured from need not be there any more.
   constexpr auto places = MeshPlaces::unasked;
@@ -113,9 +119,9 @@ Resumable open_run(const ResumeOptions& options) {
 bool is_complete(const std::filesystem::path& results, const Simulation& run) {
   try {
     const std::string text = read_input(results / "summary.json", largest_summary);
-    const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
-    Json::Value summary;
-    if (!reader->parse(text.data(), text.data() + text.size(), &summary, nullptr) || !summary.isObject()) return false;
+    const auto parsed = parsed_json(text);
+    if (!parsed || !parsed->isObject()) return false;
+    const Json::Value& summary = *parsed;
     const double beyond = summary["simulated_time_s"].asDouble() - run.scene().time.end, dt = run.last_step().dt;
     return summary["status"] == std::string(word(RunStatus::done)) && beyond >= -1e-6 * dt && beyond < dt;
   } catch (const FileError&) {

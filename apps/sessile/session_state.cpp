@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <json/json.h>
 
-#include <memory>
 #include <string_view>
 
 #include "sessile/core/error.h"
 #include "sessile/output/json_object.h"
+#include "sessile/scene/json_text.h"
 
 namespace sessile::app {
 namespace {
@@ -63,11 +63,10 @@ std::string session_json(const SessionState& state) {
 }
 
 SessionState session_of(const std::string& json) {
-  Json::Value root;
-  const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
-  if (!reader->parse(json.data(), json.data() + json.size(), &root, nullptr) || !root.isObject()) {
-    throw Error("does not say what had been written");
-  }
+  constexpr std::size_t most_values = 4'000'000;  // a million times of frames and of surfaces, and room
+  const auto parsed = parsed_json(json, most_values);
+  if (!parsed || !parsed->isObject()) throw Error("does not say what had been written");
+  const Json::Value& root = *parsed;
   SessionState state;
   try {
     state.stats_bytes = root["stats_bytes"].asUInt64();

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
 
 #include "sessile/core/error.h"
-#include "sessile/core/hash.h"
 #include "sessile/core/memory_limit.h"
 #include "sessile/forces/viscosity.h"
+#include "sessile/foreign_state.h"
+#include "sessile/misplaced.h"
 #include "sessile/neighbors/step_view.h"
 #include "sessile/pressure/pressure_force.h"
 #include "sessile/scene/lattice.h"
@@ -19,9 +18,6 @@
 
 namespace sessile {
 namespace {
-
-// Particles this close to each other or to a boundary particle at the start would be flung apart [dx].
-constexpr double least_distance = 0.5;
 
 double estimate_bodies(const Scene& scene) {
   double particles = 0;
@@ -76,94 +72,6 @@ std::vector<Solid> all_solids(const Scene& scene) {
     for (Solid& wall : domain_walls(*scene.domain)) solids.push_back(std::move(wall));
   }
   return solids;
-}
-
-/// Says which bodies overlap, and which liquid starts inside a solid or outside the domain. `owner` names the body or
-/// emitter of each point.
-std::vector<std::string> misplaced(const Array3& points, const std::vector<std::size_t>& owner,
-                                   const std::vector<std::string>& names, const Scene& scene, const Walls& walls,
-                                   const std::vector<SolidGeometry>& solids, const Grid& wall_grid,
-                                   const GridShape& shape, const Space& space) {
-  std::set<std::string> faults;
-  Grid grid;
-  grid.build(points, shape);
-  Array3 sorted;
-  for (const std::int32_t k : grid.order()) sorted.push_back(points[static_cast<std::size_t>(k)]);
-  const auto close = static_cast<Real>(least_distance * scene.spacing);
-  NeighborList pairs, touches;
-  pairs.build({sorted, grid}, {sorted, grid}, space, close);
-  touches.build({sorted, grid}, {walls.position, wall_grid}, space, close);
-
-  std::map<std::string, std::size_t> inside;  // "bodies[0] ... in the solid x" -> particles
-  std::map<std::string, std::size_t> outside;
-  for (std::size_t place = 0; place < sorted.size(); ++place) {
-    const std::size_t mine = owner[static_cast<std::size_t>(grid.order()[place])];
-    for (const std::int32_t other : pairs[place]) {
-      const std::size_t theirs = owner[static_cast<std::size_t>(grid.order()[static_cast<std::size_t>(other)])];
-      if (mine < theirs) faults.insert(fmt::format("{} and {} overlap", names[mine], names[theirs]));
-    }
-    const Vec3d x = vec_cast<double>(sorted[place]);
-    std::ptrdiff_t solid =
-        std::find_if(solids.begin(), solids.end(), [&](const auto& s) { return s.contains(x); }) - solids.begin();
-    if (solid == static_cast<std::ptrdiff_t>(solids.size()) && touches.count(place) > 0) {
-      solid = walls.solid[static_cast<std::size_t>(touches[place][0])];
-    }
-    if (solid < static_cast<std::ptrdiff_t>(solids.size())) {
-      ++inside[fmt::format("{} starts inside the solid \"{}\"", names[mine],
-                           walls.labels[static_cast<std::size_t>(solid)])];
-    }
-    if (scene.domain) {
-      const Vec3d low = scene.domain->min, high = scene.domain->max;
-      if (x.x < low.x || x.x > high.x || x.y < low.y || x.y > high.y || x.z < low.z || x.z > high.z) {
-        ++outside[fmt::format("{} starts outside the domain", names[mine])];
-      }
-    }
-  }
-  for (const auto* found : {&inside, &outside}) {
-    for (const auto& [what, count] : *found) faults.insert(fmt::format("{} ({} of its particles)", what, count));
-  }
-  return {faults.begin(), faults.end()};
-}
-
-/// Of what the solids are made of: the places of their samples and whose they are.
-std::uint64_t digest(const Walls& walls) {
-  std::uint64_t sum = 0;
-  const auto add = [&](const auto& array) { sum = hash(array.data(), bytes_of(array), sum); };
-  add(walls.position.x);
-  add(walls.position.y);
-  add(walls.position.z);
-  add(walls.solid);
-  return sum;
-}
-
-/// Refuses a state that cannot be one of this scene's.
-void refuse_foreign(const SimulationState& state, const Scene& scene, const Walls& walls) {
-  std::vector<std::string> faults;
-  const std::size_t n = state.particles.size();
-  bool whole = true, finite = true;
-  state.particles.for_each_field([&](const auto& array) {
-    whole = whole && array.size() == n;
-    finite = finite && std::all_of(array.begin(), array.end(), [](auto x) { return std::isfinite(x); });
-  });
-  if (static_cast<std::int64_t>(n) + state.totals.out != state.next_id || state.totals.emitted > state.next_id) {
-    faults.push_back(fmt::format("the state's particles do not add up: {} of {} are there and {} have left", n,
-                                 state.next_id, state.totals.out));
-  }
-  if (!whole) faults.emplace_back("the state's fields of particles are of different lengths");
-  if (!finite) faults.emplace_back("the state has numbers that are not finite");
-  if (!(state.time >= 0) || !std::isfinite(state.time)) faults.emplace_back("the state has no time");
-  if (state.sources.size() != scene.emitters.size()) {
-    faults.push_back(
-        fmt::format("the state has {} emitters, the scene {}", state.sources.size(), scene.emitters.size()));
-  }
-  if (state.forces.size() != walls.labels.size() || state.solids_digest != digest(walls)) {
-    faults.emplace_back(
-        "the solids are not those of the state: a mesh file has changed since, or the scene is another one");
-  }
-  if (const auto* method = std::get_if<Wcsph>(&scene.pressure); method != nullptr && !method->sound_speed) {
-    faults.emplace_back("pressure.sound_speed: must be given, as it was settled when the run started");
-  }
-  if (!faults.empty()) throw SceneError(std::move(faults));
 }
 
 /// Greatest speed [m/s] that the liquid can be expected to reach, or to be pressed as if it had: that of the start, of
@@ -226,12 +134,12 @@ void Simulation::fill_bodies() {
     }
   }
   // A layer may appear where a body starts: it waits. But it cannot appear in a solid.
-  auto faults = misplaced(particles_.position, owner, names, scene_, walls_, solids_, wall_grid_, grid_shape_, space_);
+  const Surroundings around{scene_, walls_, solids_, wall_grid_, grid_shape_, space_};
+  auto faults = misplaced(particles_.position, owner, names, around);
   for (std::size_t k = 0; k < scene_.emitters.size(); ++k) {
     const Array3& places = sources_[k].places();
     for (auto& fault : misplaced(places, std::vector<std::size_t>(places.size(), 0),
-                                 {name_of(scene_.emitters[k].label, "emitters", k)}, scene_, walls_, solids_,
-                                 wall_grid_, grid_shape_, space_)) {
+                                 {name_of(scene_.emitters[k].label, "emitters", k)}, around)) {
       faults.push_back(std::move(fault));
     }
   }

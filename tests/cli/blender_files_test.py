@@ -2,6 +2,7 @@
 import importlib
 import json
 import math
+import os
 import pathlib
 import struct
 import subprocess
@@ -91,6 +92,12 @@ class MeshFiles(unittest.TestCase):
                 self.read(data)
             self.assertIn(words, str(caught.exception))
             self.assertIn("m.ply", str(caught.exception))
+
+    def test_waits_for_no_pipe_and_reads_no_device(self):
+        os.mkfifo(self.folder / "pipe.ply")
+        for path in (self.folder / "pipe.ply", pathlib.Path("/dev/zero"), self.folder):
+            with self.subTest(path=path), self.assertRaisesRegex(mesh_file.MeshFileError, "is no file but"):
+                mesh_file.read_mesh(path)
 
     def test_volume(self):
         points, triangles = (np.array(each, dtype=kind) for each, kind in zip(CUBE, (np.float32, np.int32)))

@@ -128,6 +128,68 @@ class ResumedInto(CliTest):
                 surfaces.mkdir(exist_ok=True)
 
 
+class OddResults(CliTest):
+    """What stands in place of files that a program of this kind wrote."""
+
+    def replace(self, file, text=None):
+        """Puts a text, or a pipe, in place of a file."""
+        path = self.folder / file
+        path.unlink(missing_ok=True)
+        os.mkfifo(path) if text is None else path.write_text(text)
+
+    def test_pipes_in_place_of_sequences_of_surfaces(self):
+        scene = tiny()
+        scene["output"]["surface"] = {"formats": ["usda"], "cube_size": 2}
+        self.write(scene)
+        self.call("run", "s.json", "-o", "out", "--progress", "none", "--until", "0.02")
+        self.replace("out/surface/surface.usda")
+        for part in range(3):
+            self.replace(f"out/surface/.surface.usda.{part}.part")
+        _, err = self.call("run", "--resume", "out", "--until", "0.04", "--progress", "none", code=FAILED, timeout=30)
+        self.assertIn("surface.usda: it lacks frames that had been written", err)
+
+    def test_verdicts_of_comparisons(self):
+        self.write({"title": "nothing", "pressure": {"type": "iisph"}, "forces": []}, "nothing.json")
+        compare = ["compare", self.write(tiny()), "--methods", "nothing.json", "-o", "out", "--progress", "none"]
+        self.call(*compare)
+        for text in (None, "[" * 3000, "", "{}", "[" + "{}," * 3_000_000 + "{}]"):
+            with self.subTest(text and text[:10]):
+                self.replace("out/nothing/verdict.json", text)
+                out, _ = self.call(*compare, timeout=30, before="ulimit -v 1000000")
+                self.assertNotIn("as before", out)
+                self.assertEqual(json.loads((self.folder / "out/nothing/verdict.json").read_text())["status"], "done")
+
+    def test_settings_of_renderings(self):
+        self.write(tiny())
+        self.call("run", "s.json", "-o", "out", "--progress", "none")
+        self.call("mesh", "out", "--set", "cube_size=2")
+        (self.folder / "out/render").mkdir()
+        for frame in range(5):
+            (self.folder / f"out/render/frame_{frame:06d}.png").write_text("a picture")
+        self.replace("out/render/settings.json")
+        self.call("render", "out", "--no-video", timeout=30)
+        (self.folder / "out/render/settings.json").unlink()
+        os.symlink("/dev/zero", self.folder / "out/render/settings.json")
+        self.call("render", "out", "--no-video", timeout=30)
+        self.assertFalse((self.folder / "out/render/settings.json").is_symlink())
+
+    def test_more_values_than_any_has(self):
+        self.write(tiny())
+        self.call("run", "s.json", "-o", "out", "--progress", "none")
+        pvd = (self.folder / "out/frames.pvd").read_text()
+        self.replace("out/frames.pvd", pvd.replace('timestep="0"', 'timestep="7"', 1)
+                     .replace("</VTKFile>", "<a/>" * 1_200_000 + "</VTKFile>"))
+        self.replace("out/summary.json", "[" + "{}," * 5_000_000 + "{}]")
+        (self.folder / "out/surface").mkdir()
+        self.replace("out/surface/surface.json", '{"version": 1, "frames": [' + "{}," * 17_000_000 + "{}]}")
+        self.call("mesh", "out", "--set", "cube_size=2", timeout=60, before="ulimit -v 1000000")
+        times = [frame["time"] for frame in json.loads((self.folder / "out/surface/surface.json").read_text())["frames"]]
+        self.assertEqual(times[0], 0, "a list of a million tags was believed")
+        (self.folder / "out/scene.json").unlink()
+        _, err = self.call("mesh", "out", "-o", "again", code=FAILED, before="ulimit -v 600000")
+        self.assertIn("summary.json: it holds no scene", err)
+
+
 class HugeCounts(CliTest):
     def test_are_refused_with_a_sentence(self):
         self.write(tiny(emitters=[]))

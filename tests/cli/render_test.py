@@ -55,6 +55,23 @@ class WithoutBlender(Rendering):
         self.assertEqual(err, "sessile: rendering takes Blender, and there is no program `blender`; on Debian: "
                               "apt install blender python3-numpy\n")
 
+    def test_a_link_in_place_of_the_film_to_be_is_replaced(self):
+        self.mesh()
+        out, precious, ffmpeg = self.folder / "out/render", self.folder / "precious", self.folder / "bin/ffmpeg"
+        out.mkdir()
+        for frame in range(2):
+            (out / f"frame_{frame:06d}.png").write_bytes(b"picture")
+        precious.write_text("mine")
+        for name in (".part.film.mp4", ".film.mp4.list", "film.mp4"):
+            os.symlink(precious, out / name)
+        ffmpeg.parent.mkdir()
+        ffmpeg.write_text('#!/bin/sh\nfor last; do :; done\necho film > "$last"\n')
+        ffmpeg.chmod(0o755)
+        self.call("render", "out", "--frames", ":2", before=f"PATH={ffmpeg.parent}:/usr/bin:/bin")
+        self.assertEqual(precious.read_text(), "mine")
+        self.assertEqual((out / "film.mp4").read_text(), "film\n")
+        self.assertEqual([path.name for path in out.iterdir() if path.is_symlink()], [])
+
     def test_settings_are_checked_as_a_scene_is(self):
         self.mesh()
         for arguments, words in [(["--look", "watr"], "did you mean \"water\"?"),
@@ -118,6 +135,16 @@ class Frames(Rendering):
         self.assertEqual(sorted(path.name for path in (self.folder / "out/render").iterdir()),
                          ["blender.log", "film.mp4", "frame_000000.png", "frame_000001.png", "job.json",
                           "settings.json"])
+
+    def test_links_in_place_of_pictures_are_replaced(self):
+        precious = self.folder / "precious"
+        precious.write_text("mine")
+        (self.folder / "out/render").mkdir()
+        for name in (".frame_000000.part.png", "blender.log", "job.json", "settings.json"):
+            os.symlink(precious, self.folder / "out/render" / name)
+        self.call("render", "out", *SMALL, "--frames", "0", "--no-video", timeout=240)
+        self.assertEqual(precious.read_text(), "mine")
+        self.assertEqual([path.name for path in (self.folder / "out/render").iterdir() if path.is_symlink()], [])
 
     def test_frames_stay_when_ffmpeg_is_missing(self):
         self.call("render", "out", *SMALL, "--frames", ":2", "--no-video", timeout=240)

@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "sessile/core/error.h"
+#include "sessile/core/hash.h"
+#include "sessile/core/memory_limit.h"
 #include "sessile/scene/describe.h"
 #include "sessile/scene/read.h"
 #include "support/one_of_each.h"
@@ -133,6 +135,31 @@ TEST_F(CheckpointFile, SaysWhatIsWrong) {
   EXPECT_NE(fault(good, 1000).find("more than there is memory for"), std::string::npos) << fault(good, 1000);
 }
 
+/// The bytes of a checkpoint with another length of its content in the header, and a right checksum.
+std::string telling_of(std::uint64_t raw_bytes, std::string bytes) {
+  constexpr std::size_t header = 8, length = 16, sum = 24, content = 32;
+  std::memcpy(bytes.data() + length, &raw_bytes, 8);
+  std::memset(bytes.data() + sum, 0, 8);
+  const std::uint64_t checksum =
+      hash(bytes.data() + content, bytes.size() - content, hash(bytes.data() + header, content - header));
+  std::memcpy(bytes.data() + sum, &checksum, 8);
+  return bytes;
+}
+
+TEST_F(CheckpointFile, TakesNoMemoryForWhatItsHeaderClaims) {
+  const std::string good = bytes();
+  std::uint64_t length = 0;
+  std::memcpy(&length, good.data() + 16, 8);
+  ASSERT_EQ(fault(telling_of(length, good)), "none");
+  constexpr std::uint64_t tebi = std::uint64_t{1} << 40;
+  EXPECT_EQ(fault(telling_of(1024 * tebi, good), 2048 * tebi), "file: this checkpoint holds less than it tells of");
+  EXPECT_EQ(fault(telling_of(length - 1, good)), "file: this checkpoint holds more than it tells of");
+  EXPECT_EQ(fault(telling_of(length, good + "x")), "file: this checkpoint holds more than it should");
+  const auto quarter = static_cast<std::uint64_t>(memory_limit().bytes / 4);
+  EXPECT_NE(fault(telling_of(quarter + 1, good)).find("more than there is memory for"), std::string::npos);
+  EXPECT_EQ(fault(telling_of(quarter, good)), "file: this checkpoint holds less than it tells of");
+}
+
 TEST_F(CheckpointFile, FindsEveryDamage) {
   const std::string good = bytes();
   for (std::size_t length = 32; length < good.size(); length += 97) {
@@ -183,6 +210,31 @@ TEST(SimulationState, IsRefusedByAnotherScene) {
   torn = state;
   torn.particles.velocity.y[3] = std::numeric_limits<Real>::quiet_NaN();
   EXPECT_NE(refusal(scene, torn).find("not finite"), std::string::npos);
+  for (const std::int64_t id : {std::int64_t{-5}, state.particles.id[3], state.next_id, std::int64_t{1} << 62}) {
+    torn = state;
+    torn.particles.id[4] = id;
+    EXPECT_NE(refusal(scene, torn).find("do not have a number each"), std::string::npos) << id;
+  }
+  for (const Real mass : {Real(0), Real(-1)}) {
+    torn = state;
+    torn.particles.mass[2] = mass;
+    EXPECT_NE(refusal(scene, torn).find("without a mass"), std::string::npos);
+  }
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  for (std::int64_t Totals::*const count : {&Totals::steps, &Totals::out, &Totals::emitted, &Totals::iterations}) {
+    for (const std::int64_t value : {std::int64_t{-1000}, most}) {
+      torn = state;
+      torn.totals.*count = value;
+      EXPECT_NE(refusal(scene, torn).find("counts below zero, or further"), std::string::npos) << value;
+    }
+  }
+  torn = state;
+  torn.next_id = most;
+  torn.totals.out = most - static_cast<std::int64_t>(state.particles.size());
+  EXPECT_NE(refusal(scene, torn).find("counts below zero, or further"), std::string::npos);
+  torn = state;
+  torn.last_step.dt = -1;
+  EXPECT_NE(refusal(scene, torn).find("no length"), std::string::npos);
   torn = state;
   torn.time = -1;
   EXPECT_NE(refusal(scene, torn).find("no time"), std::string::npos);

@@ -2,14 +2,18 @@
 
 #include <cstring>
 
+#include "sessile/output/check.h"
 #include "sessile/output/file.h"
 #include "sessile/output/frames.h"
 #include "sessile/results/frame_files.h"
 #include "sessile/results/results.h"
 #include "sessile/scene/input_file.h"
+#include "sessile/scene/json_text.h"
 #include "sessile/scene/mesh_files.h"
 #include "sessile/scene/mesh_sampling.h"
 #include "sessile/scene/sampling.h"
+#include "sessile/scene/spelling.h"
+#include "sessile/scene/validate.h"
 #include "sessile/simulation.h"
 #include "unit/scene_files.h"
 #include "unit/temporary_folder.h"
@@ -39,6 +43,37 @@ TEST_F(Limits, NestingOfASceneIs64Levels) {
   EXPECT_EQ(faults(nested(1'000'000)), (Lines{"s.json:1: nested more than 64 levels deep"}));
 }
 
+TEST_F(Limits, JsonOfOurOwnIsBounded) {
+  const auto list = [](std::size_t n) {
+    std::string text = "[0";
+    for (std::size_t k = 1; k < n; ++k) text += ",0";
+    return text + "]";
+  };
+  EXPECT_TRUE(parsed_json(list(99), 100));  // and the list itself
+  EXPECT_FALSE(parsed_json(list(100), 100));
+  EXPECT_TRUE(parsed_json(R"(["{{{{[[[[,,,,\"[[[[", "\\"])", 5));  // in texts they count for nothing
+  EXPECT_TRUE(parsed_json(std::string(64, '[') + std::string(64, ']')));
+  EXPECT_FALSE(parsed_json(std::string(65, '[') + std::string(65, ']')));
+  EXPECT_FALSE(parsed_json("/* \" */ [0,0,0] /* \" */", 3));  // nor can a comment hide them
+  for (const char* text : {"", "{", "[1", "\"", "\"\\", "{\"a\"}", "]"}) EXPECT_FALSE(parsed_json(text)) << text;
+}
+
+TEST_F(Limits, PathsOfOverridesAre64Levels) {
+  const auto told = [&](const std::string& step, std::size_t levels) {
+    std::string path = "title";
+    for (std::size_t k = 1; k < levels; ++k) path += step;
+    return faults(around_body(""), {path + "=1"});
+  };
+  EXPECT_FALSE(has(told(".a", 64).at(0), "nested more than"));
+  EXPECT_TRUE(told(".a", 65).at(0).ends_with(".a: nested more than 64 levels deep"));
+  for (const char* step : {".a", "[0]"}) {
+    const Lines deep = told(step, 1'000'000);
+    ASSERT_EQ(deep.size(), 1U);
+    EXPECT_TRUE(has(deep[0], "...: nested more than 64 levels deep")) << deep[0];
+    EXPECT_LT(deep[0].size(), 400U);
+  }
+}
+
 TEST_F(Limits, ASceneHoldsTwoMillionValues) {
   std::string list = "[";
   for (int i = 0; i < 2'000'001; ++i) list += "0,";
@@ -57,6 +92,45 @@ TEST_F(Limits, OnlyAHundredFaultsAreTold) {
   const Lines told = faults(around_body(keys));
   ASSERT_EQ(told.size(), 101U);
   EXPECT_EQ(told.back(), "s.json: more than 100 faults");
+}
+
+TEST_F(Limits, NoMoreFaultsAreCollectedThanAreTold) {
+  Scene scene = read_resolved_text(around_body("\"emitters\": [], "), "s.json").scene;
+  Emitter emitter;
+  emitter.shape = Disc{0.1};
+  emitter.times.assign(1'000'000, 0);
+  scene.emitters = {emitter};
+  EXPECT_LE(validate(scene).size(), 101U);
+  scene.emitters[0].times.assign(1'000'000, -1);  // each out of its range
+  EXPECT_LE(validate(scene).size(), 101U + 101U);
+  scene.output.columns.assign(1'000'000, "nothing");
+  scene.output.formats.assign(1'000'000, "nothing");
+  EXPECT_EQ(check_output(scene).size(), 101U);
+}
+
+TEST_F(Limits, StepsThatDoNotMoveTheTime) {
+  const auto told = [&](const std::vector<std::string>& overrides) { return faults(around_body(""), overrides); };
+  EXPECT_EQ(told({"time.fixed_dt=1e-14"}), Lines{});
+  EXPECT_EQ(told({"time.fixed_dt=1e-16"}),
+            (Lines{"--set time.fixed_dt: 1e-16 s is less than 1e-15 of time.end, 1 s: the time could not be told from "
+                   "that before the step"}));
+  EXPECT_EQ(told({"time.dt_max=1e-300", "time.dt_min=1e-300"}).size(), 1U);
+  EXPECT_EQ(told({"time.dt_max=1e-300", "time.dt_min=1e-300", "time.fixed_dt=0.1"}), Lines{});
+}
+
+TEST_F(Limits, NothingOfAFileSteersTheTerminal) {
+  EXPECT_EQ(printable("a\x1b[31m\x07\r\nb\x7f"), "a?[31m???b?");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "2J \xc3\xa4 \xc2\xb5"),
+            "?2J \xc3\xa4 \xc2\xb5");
+  EXPECT_EQ(printable(std::string(1000, 'x')), std::string(60, 'x') + "...");
+  std::vector<std::string> names(20'000, "c\x1b[2J");
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  const std::string hint = spelling_hint("nope nope nope", candidates, "fields");
+  EXPECT_EQ(hint.find('\x1b'), std::string::npos);
+  EXPECT_LT(hint.size(), 1000U);
+  EXPECT_EQ(spelling_hint("colour", std::vector<std::string_view>{"colou\x1b"}, "fields"),
+            " (did you mean \"colou?\"?)");
 }
 
 TEST_F(Limits, HugeTextsAndTitlesThatWouldSteerATerminal) {

@@ -175,6 +175,25 @@ TEST_F(MeshFiles, AreSolids) {
   }
 }
 
+// The signed volumes of two cubes that face opposite ways cancel, and filling them does not.
+TEST(RoughVolume, DoesNotCancel) {
+  for (const double apart : {12.0, 1e4}) {
+    std::vector<Vec3d> places;
+    Triangles triangles;
+    for (const bool flipped : {false, true}) {
+      const auto first = static_cast<std::uint32_t>(places.size());
+      for (const Vec3d& corner : cube_corners) places.push_back(5 * corner + Vec3d{flipped ? apart : 0, 0, 0});
+      for (auto t : cube_triangles) {
+        if (flipped) std::swap(t[1], t[2]);
+        triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      }
+    }
+    const TriangleMesh mesh = make_mesh(places, triangles);
+    EXPECT_NEAR(mesh.volume(), 0, 1e-6);
+    EXPECT_NEAR(MeshSpace(mesh).rough_volume(), 2000, 100) << apart;
+  }
+}
+
 TEST(MeshSpace, KnowsTheInsideOfATorus) {
   const auto mesh = torus(1, 0.4, 64);
   EXPECT_TRUE(mesh.closed());

@@ -47,7 +47,8 @@ TEST(SessionState, OfTheFirstFormatIsReadOn) {
 #endif
 
 TEST(SessionState, RefusesOtherText) {
-  for (const char* text : {"", "{", "[1]", "3", R"({"frame_times": ["x"]})", R"({"stats_bytes": -1})"}) {
+  const std::string deep(3000, '[');
+  for (const char* text : {"", "{", deep.c_str(), "[1]", "3", R"({"frame_times": ["x"]})", R"({"stats_bytes": -1})"}) {
     EXPECT_THROW(session_of(text), Error) << text;
   }
 }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
+
+#include "sessile/scene/input_file.h"
 
 namespace sessile::app {
 namespace {
@@ -26,7 +27,7 @@ std::vector<std::string> csv_fields(const std::string& line) {
 }  // namespace
 
 StatsTable::StatsTable(const std::filesystem::path& file) {
-  std::ifstream in(file);
+  std::ifstream in = stream_of(file);
   std::string line;
   if (!std::getline(in, line)) return;
   std::vector<std::vector<double>*> by_place;

@@ -1,17 +1,23 @@
 #include "record.h"
 
-#include <json/json.h>
 #include <omp.h>
 
 #include <algorithm>
-#include <fstream>
 #include <type_traits>
 
+#include "sessile/core/error.h"
 #include "sessile/output/json_object.h"
 #include "sessile/scene/describe.h"
+#include "sessile/scene/input_file.h"
+#include "sessile/scene/json_text.h"
 #include "sessile/version.h"
 
 namespace sessile::app {
+namespace {
+
+constexpr std::uintmax_t largest_verdict = std::uintmax_t{64} << 20;  // bytes; it holds a scene, moved in by two blanks
+
+}  // namespace
 
 std::string RunObserver::look(const Simulation& simulation) {
   const StepReport& last = simulation.last_step();
@@ -78,9 +84,15 @@ std::string verdict_json(const RunRecord& record) {
 }
 
 std::optional<RunRecord> read_verdict(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  Json::Value json;
-  if (!in || !Json::parseFromStream(Json::CharReaderBuilder(), in, &json, nullptr) || !json.isObject()) return {};
+  std::string text;
+  try {
+    text = read_input(file, largest_verdict);
+  } catch (const FileError&) {
+    return {};
+  }
+  const auto parsed = parsed_json(text);
+  if (!parsed || !parsed->isObject()) return {};
+  const Json::Value& json = *parsed;
   RunRecord record;
   bool whole = true;
   for_each_figure(record, [&](const char* key, auto& value) {
@@ -98,9 +110,6 @@ std::optional<RunRecord> read_verdict(const std::filesystem::path& file) {
     }
   });
   // The scene's own text: to the byte as it was written, moved back out by two blanks.
-  in.clear();
-  in.seekg(0);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
   const std::string begin = "\n  \"scene\": ", end = "\n}\n";
   const auto at = text.find(begin);
   if (!whole || at == std::string::npos || !text.ends_with(end)) return {};

@@ -36,6 +36,8 @@ FilmEnd make_film(const std::vector<fs::path>& pictures, double rate, const fs::
   // Under the temporary name ffmpeg could not tell the format by its ending.
   const fs::path part = folder / fmt::format(".part.{}", film.filename().string());
   write_whole(list, list_text(pictures, rate));
+  std::error_code error;
+  fs::remove(part, error);  // ffmpeg would write through a link that stands there
   std::string last;
   const ChildEnd end = run_child({"ffmpeg",
                                   "-hide_banner",
@@ -62,7 +64,6 @@ FilmEnd make_film(const std::vector<fs::path>& pictures, double rate, const fs::
                                   "+faststart",
                                   part.string()},
                                  [&](const std::string& line) { last = line; });
-  std::error_code error;
   fs::remove(list, error);
   if (!end.missing && !end.interrupted && end.status == 0) {
     fs::rename(part, film);

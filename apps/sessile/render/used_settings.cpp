@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -10,6 +9,7 @@
 #include "sessile/core/error.h"
 #include "sessile/output/file.h"
 #include "sessile/scene/describe.h"
+#include "sessile/scene/input_file.h"
 
 namespace sessile::app {
 namespace {
@@ -31,6 +31,16 @@ std::string trimmed(const std::string& line) {
   return begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
 }
 
+/// The text of a file of settings; an empty one where there is none, or something else in its place.
+std::string settings_in(const fs::path& file) {
+  constexpr std::uintmax_t largest = std::uintmax_t{16} << 20;
+  try {
+    return read_input(file, largest);
+  } catch (const FileError&) {
+    return "";
+  }
+}
+
 /// The first line in which two texts differ: `"samples": 16, now "samples": 64`.
 std::string first_difference(const std::string& before, const std::string& now) {
   std::istringstream old_lines(before), new_lines(now);
@@ -45,13 +55,12 @@ std::string first_difference(const std::string& before, const std::string& now) 
 void keep_settings(const fs::path& folder, const RenderSettings& settings, bool again) {
   const fs::path file = folder / "settings.json";
   const std::string now = to_json(settings);
-  std::ostringstream before;
-  if (std::ifstream stream(file, std::ios::binary); stream) before << stream.rdbuf();
-  if (before.str() == now) return;
-  if (!again && !before.str().empty() && has_pictures(folder)) {
+  const std::string before = settings_in(file);
+  if (before == now) return;
+  if (!again && !before.empty() && has_pictures(folder)) {
     throw SceneError(
         fmt::format("{} holds frames made with other settings ({}); --again renders anew, -o takes another folder",
-                    folder.string(), first_difference(before.str(), now)));
+                    folder.string(), first_difference(before, now)));
   }
   write_whole(file, now);
 }

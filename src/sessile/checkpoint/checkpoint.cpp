@@ -1,15 +1,18 @@
 #include "sessile/checkpoint/checkpoint.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <memory>
+#include <new>
+#include <vector>
 
 #include "sessile/checkpoint/archive.h"
 #include "sessile/core/error.h"
 #include "sessile/core/hash.h"
+#include "sessile/core/memory_limit.h"
 #include "sessile/output/durable.h"
 #include "sessile/scene/input_file.h"
 
@@ -38,15 +41,35 @@ void fields(A& archive, C& checkpoint) {
   archive(checkpoint.version, checkpoint.isa, checkpoint.scene_json, checkpoint.session, checkpoint.state);
 }
 
-std::uint64_t physical_memory() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+/// Bytes that a file and its content may each have. The packed bytes, the content as it grows, which may take twice its
+/// length for a moment, and the state that is read from it stand side by side.
+std::uint64_t most_bytes() {
+  constexpr double side_by_side = 4;
+  return static_cast<std::uint64_t>(memory_limit().bytes / side_by_side);
 }
 
+/// Grows with what is unpacked: a header that lies takes no memory.
 std::string decompressed(std::string_view content, std::uint64_t raw_bytes) {
-  std::string raw(static_cast<std::size_t>(raw_bytes), '\0');
-  const std::size_t size = ZSTD_decompress(raw.data(), raw.size(), content.data(), content.size());
-  if (ZSTD_isError(size) != 0) throw Error(std::string("zstd: ") + ZSTD_getErrorName(size));
-  if (size != raw.size()) throw Error("holds less than it tells of");
+  const auto told = ZSTD_getFrameContentSize(content.data(), content.size());
+  if (told != ZSTD_CONTENTSIZE_UNKNOWN && told != ZSTD_CONTENTSIZE_ERROR && told != raw_bytes) {
+    throw Error("holds another length than it tells of");
+  }
+  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
+  if (!context) throw std::bad_alloc();
+  std::string raw;
+  std::vector<char> block(ZSTD_DStreamOutSize());
+  ZSTD_inBuffer in{content.data(), content.size(), 0};
+  for (std::size_t left = 1; left != 0;) {
+    const std::size_t before = in.pos;
+    ZSTD_outBuffer out{block.data(), block.size(), 0};
+    left = ZSTD_decompressStream(context.get(), &out, &in);
+    if (ZSTD_isError(left) != 0) throw Error(std::string("zstd: ") + ZSTD_getErrorName(left));
+    if (out.pos > raw_bytes - raw.size()) throw Error("holds more than it tells of");
+    raw.append(block.data(), out.pos);
+    if (left != 0 && out.pos == 0 && in.pos == before) throw Error("ends too early");
+  }
+  if (raw.size() != raw_bytes) throw Error("holds less than it tells of");
+  if (in.pos != in.size) throw Error("holds more than it should");
   return raw;
 }
 
@@ -87,7 +110,7 @@ Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name, st
         fmt::format("{}: this checkpoint is of a build with {}-bit numbers, and this one has {}-bit numbers", name,
                     8 * header.real_bytes, 8 * sizeof(Real)));
   }
-  if (header.raw_bytes > (most > 0 ? most : physical_memory())) {
+  if (header.raw_bytes > (most > 0 ? most : most_bytes())) {
     refuse(fmt::format("this checkpoint tells of {:.3g} GiB, which is more than there is memory for",
                        static_cast<double>(header.raw_bytes) / (1 << 30)));
   }
@@ -111,7 +134,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
   std::string bytes;
   try {
-    bytes = read_input(file, physical_memory());
+    bytes = read_input(file, most_bytes());
   } catch (const FileError& fault) {
     throw FileError(fmt::format("cannot read {}: {}", file.string(), fault.what()));
   }

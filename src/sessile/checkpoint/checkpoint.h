@@ -36,8 +36,8 @@ struct ForeignCheckpoint : FileError {
 std::string encode_checkpoint(const Checkpoint& checkpoint);
 
 /// Reads the bytes of a file; `name` stands for it in messages. `most`: content that is longer is refused [bytes]; 0
-/// for what the machine's memory holds. Throws ForeignCheckpoint, and FileError: not a checkpoint, cut short, damaged,
-/// too large.
+/// for a quarter of the memory there is for this process. Throws ForeignCheckpoint, and FileError: not a checkpoint,
+/// cut short, damaged, too large.
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name, std::uint64_t most = 0);
 
 /// Writes it whole or not at all. Throws FileError.

@@ -234,6 +234,12 @@ int Grid::around(const std::array<std::int64_t, 3>& cell, Cursor& cursor, std::s
   return found;
 }
 
+std::size_t Grid::fullest_cell() const {
+  std::int32_t most = 0;
+  for (std::size_t k = 0; k < cell_count(); ++k) most = std::max(most, begins_[k + 1] - begins_[k]);
+  return static_cast<std::size_t>(most);
+}
+
 std::size_t Grid::bytes() const {
   return keys_.size() * sizeof(keys_[0]) + begins_.size() * sizeof(begins_[0]) + bytes_of(order_) + bytes_of(items_) +
          bytes_of(items_scratch_);

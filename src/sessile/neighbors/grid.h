@@ -86,6 +86,7 @@ class Grid {
 
   const GridShape& shape() const { return shape_; }
   std::size_t cell_count() const { return keys_.size(); }
+  std::size_t fullest_cell() const;  ///< most points in a cell
   std::size_t bytes() const;
 
  private:

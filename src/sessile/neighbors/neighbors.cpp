@@ -115,11 +115,11 @@ class Found {
 };
 
 /// Whether each list holds places among `others` alone, and no particle itself, for assertions.
-[[maybe_unused]] bool sound(const NeighborList& lists, std::size_t others, bool same) {
+[[maybe_unused]] bool sound(const NeighborList& lists, std::size_t others, bool same, std::size_t offset) {
   for (std::size_t i = 0; i < lists.size(); ++i) {
     for (const std::int32_t j : lists[i]) {
       if (j < 0 || static_cast<std::size_t>(j) >= others) return false;
-      if (same && static_cast<std::size_t>(j) == i) return false;
+      if (same && static_cast<std::size_t>(j) == offset + i) return false;
     }
   }
   return true;
@@ -135,7 +135,24 @@ void refuse_crowding(std::size_t points_in_a_cell) {
                   points_in_a_cell, most_in_a_cell));
 }
 
+std::vector<PlaceRange> parts_of(std::size_t points, std::size_t fullest_cell) {
+  constexpr std::size_t most_entries = std::size_t{1} << 25, cells = 27;
+  const auto block = static_cast<std::size_t>(block_size);
+  std::size_t size = std::max<std::size_t>(most_entries / (cells * std::max<std::size_t>(1, fullest_cell)), lane_count);
+  size -= size % (size < block ? static_cast<std::size_t>(lane_count) : block);
+  std::vector<PlaceRange> parts;
+  for (std::size_t begin = 0; begin < points; begin += size) {
+    parts.push_back({static_cast<std::int32_t>(begin), static_cast<std::int32_t>(std::min(points, begin + size))});
+  }
+  return parts;
+}
+
 void NeighborList::build(const SortedPoints& points, const SortedPoints& others, const Space& space, Real radius) {
+  build(points, others, space, radius, {0, static_cast<std::int32_t>(points.position.size())});
+}
+
+void NeighborList::build(const SortedPoints& points, const SortedPoints& others, const Space& space, Real radius,
+                         const PlaceRange& part) {
   static_assert(block_size % lane_count == 0, "a group lies in one block");
   const bool same = &points.position == &others.position;
   const auto held = [&](int cell) {
@@ -143,7 +160,8 @@ void NeighborList::build(const SortedPoints& points, const SortedPoints& others,
     return static_cast<double>(places.end - places.begin);
   };
   refuse_crowding(static_cast<std::size_t>(maximum(others.grid.cell_count(), held)));
-  size_ = points.position.size();
+  const auto offset = static_cast<std::size_t>(part.begin);
+  size_ = static_cast<std::size_t>(part.end - part.begin);
   lanes_ = lane_count;
   const std::size_t group_count = (size_ + lane_count - 1) / lane_count;
   groups_.resize(group_count);
@@ -157,13 +175,14 @@ void NeighborList::build(const SortedPoints& points, const SortedPoints& others,
     std::array<PlaceRange, 18> ranges;
     std::size_t used = 0;
     const auto last = static_cast<std::size_t>(end);
-    std::size_t cell = points.grid.cell_at(static_cast<std::int32_t>(begin));
-    auto next_cell = static_cast<std::size_t>(begin);  // the first point whose candidates are yet to be collected
+    std::size_t cell = points.grid.cell_at(part.begin + static_cast<std::int32_t>(begin));
+    auto next_cell =
+        offset + static_cast<std::size_t>(begin);  // the first point whose candidates are yet to be collected
     for (auto first = static_cast<std::size_t>(begin); first < last; first += lane_count) {
       found.clear();
       for (int q = 0; q < lane_count; ++q) {
-        const std::size_t i = first + static_cast<std::size_t>(q);
-        if (i >= last) {
+        const std::size_t i = offset + first + static_cast<std::size_t>(q);
+        if (i >= offset + last) {
           found.add_nothing(q);
           continue;
         }
@@ -196,7 +215,7 @@ void NeighborList::build(const SortedPoints& points, const SortedPoints& others,
       start += static_cast<std::size_t>(group.longest) * lane_count;
     }
   });
-  assert(sound(*this, others.position.size(), same));
+  assert(sound(*this, others.position.size(), same, offset));
 }
 
 std::size_t NeighborList::bytes() const {

@@ -69,6 +69,10 @@ struct SortedPoints {
   const Grid& grid;
 };
 
+/// Cuts points into parts whose lists take 128 MiB at most, or one group of particles where that takes more already;
+/// `fullest_cell`: most points that a cell of those to be listed holds.
+std::vector<PlaceRange> parts_of(std::size_t points, std::size_t fullest_cell);
+
 /// For each particle of one set the indices of the particles of another (or the same) set closer than the support
 /// radius, strictly; itself left out. Built anew once a step.
 class NeighborList {
@@ -84,6 +88,10 @@ class NeighborList {
   /// grids. When both are the same set, each point is left out of its own list. Throws RunError where more than
   /// most_in_a_cell points crowd into one cell.
   void build(const SortedPoints& points, const SortedPoints& others, const Space& space, Real radius);
+
+  /// The same of some of the points, those of one of parts_of(): list k is that of point part.begin + k.
+  void build(const SortedPoints& points, const SortedPoints& others, const Space& space, Real radius,
+             const PlaceRange& part);
 
   const NeighborGroup* groups() const { return groups_.data(); }
   const std::int32_t* counts() const { return count_.data(); }  ///< 0 for places of the last group past the end

@@ -18,7 +18,8 @@ namespace {
 void check_names(const std::vector<std::string>& names, const std::vector<std::string>& known, std::string_view key,
                  std::string_view kind, std::vector<Fault>& faults) {
   const std::vector<std::string_view> candidates(known.begin(), known.end());
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  constexpr std::size_t most_collected = 101;  // a hundred are told, and that there are more
+  for (std::size_t i = 0; i < names.size() && faults.size() < most_collected; ++i) {
     if (std::find(known.begin(), known.end(), names[i]) != known.end()) continue;
     Fault fault{fmt::format("{}[{}]", key, i), fmt::format("unknown {} {}", kind, in_quotes(names[i])), {}};
     fault.message += spelling_hint(names[i], candidates, fmt::format("{}s", kind));

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -18,6 +17,7 @@
 #include "sessile/core/error.h"
 #include "sessile/output/durable.h"
 #include "sessile/output/surfaces.h"
+#include "sessile/scene/input_file.h"
 
 namespace sessile {
 namespace {
@@ -89,7 +89,7 @@ std::optional<double> code_of(std::string_view line) {
 
 /// Appends what a file holds after its first line.
 void copy(const std::filesystem::path& from, LineFile& to) {
-  std::ifstream in(from, std::ios::binary);
+  std::ifstream in = stream_of(from);
   std::string first;
   std::getline(in, first);
   std::vector<char> block(std::size_t{1} << 20);
@@ -193,7 +193,7 @@ void UsdaWriter::sample(std::string_view type_and_name, std::string_view bracket
 /// there are.
 std::size_t UsdaWriter::take_from_file(double until) {
   constexpr std::string_view indent = "        ", opening = ".timeSamples = {";
-  std::ifstream in(file_, std::ios::binary);
+  std::ifstream in = stream_of(file_);
   Attribute* current = nullptr;
   std::string brackets;
   std::size_t frames = 0;
@@ -220,7 +220,7 @@ std::size_t UsdaWriter::take_from_parts(double until) {
   std::size_t frames = 0;
   for (std::size_t k = 0;; ++k) {
     const auto part = part_of(k);
-    std::ifstream in(part, std::ios::binary);
+    std::ifstream in = stream_of(part);
     std::string line;
     if (!std::getline(in, line) || in.eof()) return frames;
     const auto bar = line.find('|');

@@ -28,7 +28,7 @@ std::optional<FrameMoment> vtp_moment(std::string_view beginning);
 std::optional<FrameMoment> ply_moment(std::string_view beginning);
 
 /// The particles in a .vtp file that encode_vtp() wrote; the bytes are used up. `most`: bytes that its arrays may
-/// unpack to; 0 for half of the machine's memory.
+/// unpack to; 0 for an eighth of the memory there is for this process.
 Snapshot parse_vtp_frame(std::string bytes, std::uint64_t most = 0);
 
 /// The particles in a .ply file that encode_ply() wrote. Units come from the columns' names: the format has none.

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "sessile/core/error.h"
+#include "sessile/core/memory_limit.h"
 #include "sessile/results/frame_files.h"
 
 namespace sessile {
@@ -42,8 +42,10 @@ class Appended {
   /// `most`: bytes that all arrays may unpack to.
   Appended(std::string_view text, std::uint64_t most) : text_(text), left_(most) {}
 
-  /// The next array, which must hold `size` bytes.
-  std::string next(std::uint64_t offset, std::uint64_t size) {
+  /// The next array, which must hold so many values.
+  template <class T>
+  std::vector<T> next(std::uint64_t offset, std::uint64_t count) {
+    const std::uint64_t size = count * sizeof(T);
     if (offset != at_) throw not_ours();
     const std::uint64_t blocks = words(base64(word_bytes, false))[0];
     if (blocks > text_.size() / word_bytes) throw damaged();
@@ -56,7 +58,7 @@ class Appended {
     if (size / most_inflation > packed_bytes) throw damaged();
     if (size > left_) throw FileError("it unpacks to more than there is memory for");
     left_ -= size;
-    return inflated(base64(packed_bytes, true), head, size);
+    return inflated<T>(base64(packed_bytes, true), head, size);
   }
 
  private:
@@ -78,18 +80,22 @@ class Appended {
     return values;
   }
 
-  /// Grows block by block, so that sizes that lie are found out before memory is taken for them.
-  static std::string inflated(const std::string& packed, const std::vector<std::uint64_t>& head, std::uint64_t size) {
-    std::string bytes;
+  /// Grows block by block, so that sizes that lie are found out before memory is taken for them: what is reserved is
+  /// not touched, and no more than zlib could make of what is there.
+  template <class T>
+  static std::vector<T> inflated(const std::string& packed, const std::vector<std::uint64_t>& head,
+                                 std::uint64_t size) {
+    std::vector<T> values;
+    values.reserve(size / sizeof(T));
     std::uint64_t from = 0, to = 0;
     for (std::size_t block = 3; block < head.size(); ++block) {
       const bool part = block + 1 == head.size() && head[2] != 0;
       const std::uint64_t expected = part ? head[2] : head[1];
       if (expected > size - to || expected / most_inflation > head[block]) throw damaged();
-      bytes.resize(to + expected);
+      values.resize((to + expected + sizeof(T) - 1) / sizeof(T));
       uLongf made = expected;
       const auto* const source = reinterpret_cast<const Bytef*>(packed.data() + from);
-      if (uncompress(reinterpret_cast<Bytef*>(bytes.data() + to), &made, source, head[block]) != Z_OK ||
+      if (uncompress(reinterpret_cast<Bytef*>(values.data()) + to, &made, source, head[block]) != Z_OK ||
           made != expected) {
         throw damaged();
       }
@@ -97,20 +103,13 @@ class Appended {
       to += expected;
     }
     if (to != size) throw damaged();
-    return bytes;
+    return values;
   }
 
   std::string_view text_;
   std::size_t at_ = 0;
   std::uint64_t left_;
 };
-
-template <class T>
-std::vector<T> values_in(const std::string& bytes) {
-  std::vector<T> values(bytes.size() / sizeof(T));
-  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
-  return values;
-}
 
 Column read_array(const pugi::xml_node& array, std::uint64_t points, Appended& appended) {
   Column column;
@@ -122,12 +121,11 @@ Column read_array(const pugi::xml_node& array, std::uint64_t points, Appended& a
   const bool whole = type == "Int64";
   if (!offset || (!whole && type != "Float32")) throw not_ours();
   if (column.components != 1 && column.components != 3) throw not_ours();
-  const std::uint64_t size = points * static_cast<std::uint64_t>(column.components) * (whole ? 8 : 4);
-  const std::string bytes = appended.next(*offset, size);
+  const std::uint64_t count = points * static_cast<std::uint64_t>(column.components);
   if (whole) {
-    column.values = values_in<std::int64_t>(bytes);
+    column.values = appended.next<std::int64_t>(*offset, count);
   } else {
-    column.values = values_in<float>(bytes);
+    column.values = appended.next<float>(*offset, count);
   }
   return column;
 }
@@ -140,8 +138,10 @@ void refuse_much_xml(std::string_view bytes) {
   if (before > most_xml || (end != std::string_view::npos && bytes.size() - end > most_xml)) throw not_ours();
 }
 
-std::uint64_t half_of_memory() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / 2;
+/// The file, the bytes behind its base64 and what is made of the frame then stand beside the unpacked data.
+std::uint64_t most_unpacked() {
+  constexpr double side_by_side = 8;
+  return static_cast<std::uint64_t>(memory_limit().bytes / side_by_side);
 }
 
 FrameMoment moment_of(const pugi::xml_node& fields) {
@@ -196,7 +196,7 @@ Snapshot parse_vtp_frame(std::string bytes, std::uint64_t most) {
   std::string_view text = data.child_value();
   while (!text.empty() && (text.front() == '\n' || text.front() == ' ')) text.remove_prefix(1);
   if (!text.starts_with('_')) throw not_ours();
-  Appended appended(text.substr(1), most > 0 ? most : half_of_memory());
+  Appended appended(text.substr(1), most > 0 ? most : most_unpacked());
   const FrameMoment moment = moment_of(file.child("PolyData").child("FieldData"));
   Snapshot snapshot{moment.time, moment.step, {}, {}};
   for (const pugi::xml_node array : piece.child("PointData").children("DataArray")) {

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <pugixml.hpp>
 #include <string_view>
 #include <system_error>
@@ -17,6 +16,7 @@
 #include "sessile/core/error.h"
 #include "sessile/core/memory_limit.h"
 #include "sessile/results/frame_files.h"
+#include "sessile/scene/json_text.h"
 #include "sessile/scene/read.h"
 
 namespace sessile {
@@ -30,7 +30,7 @@ constexpr std::uintmax_t largest_summary = std::uintmax_t{16} << 20;
 constexpr std::size_t head_bytes = 4096;  // enough for the time, which stands in front
 
 /// A frame's bytes and what is made of them must both fit.
-std::uintmax_t largest_frame() { return static_cast<std::uintmax_t>(memory_limit().bytes / 2); }
+std::uintmax_t largest_frame() { return static_cast<std::uintmax_t>(memory_limit().bytes / 4); }
 
 /// The number in frame_000012.vtp; nothing for other names.
 std::optional<std::int64_t> number_of(const std::string& name, std::string_view format) {
@@ -57,13 +57,23 @@ std::vector<ResultFrame> frames_in(const fs::path& folder, std::string_view form
   return frames;
 }
 
+/// Whether there is no more in it than in the collection of a million frames: one tag a frame with three attributes. A
+/// tree of XML takes up to a hundred bytes for each.
+bool is_collection_of_ours(std::string_view bytes) {
+  constexpr std::ptrdiff_t most_tags = 1'100'000, most_attributes = 4'000'000;
+  return std::count(bytes.begin(), bytes.end(), '<') <= most_tags &&
+         std::count(bytes.begin(), bytes.end(), '=') <= most_attributes;
+}
+
 /// The times that frames.pvd gives to files; none where there is no such file or it is damaged.
 std::map<std::string, double, std::less<>> collected_times(const fs::path& folder) {
   std::map<std::string, double, std::less<>> times;
+  std::string bytes;
   pugi::xml_document document;
   try {
-    const std::string bytes = file_bytes(folder / "frames.pvd", largest_collection);
-    if (!document.load_buffer(bytes.data(), bytes.size())) return times;
+    bytes = file_bytes(folder / "frames.pvd", largest_collection);
+    if (!is_collection_of_ours(bytes)) return times;
+    if (!document.load_buffer_inplace(bytes.data(), bytes.size())) return times;
   } catch (const FileError&) {
     return times;
   }
@@ -88,18 +98,11 @@ double time_of(const fs::path& file) {
 /// The scene as the text of a file of its own, out of the summary of an older run.
 std::string scene_in_summary(const fs::path& file) {
   const std::string text = file_bytes(file, largest_summary);
-  Json::Value summary;
-  std::string why;
-  const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
-  try {
-    if (!reader->parse(text.data(), text.data() + text.size(), &summary, &why)) summary = {};
-  } catch (const Json::Exception&) {  // nested too deep
-    summary = {};
-  }
-  if (!summary.isObject() || !summary["scene"].isObject()) {
+  const auto summary = parsed_json(text);
+  if (!summary || !summary->isObject() || !(*summary)["scene"].isObject()) {
     throw FileError(fmt::format("cannot read {}: it holds no scene", file.string()));
   }
-  return Json::writeString(Json::StreamWriterBuilder(), summary["scene"]);
+  return Json::writeString(Json::StreamWriterBuilder(), (*summary)["scene"]);
 }
 
 }  // namespace

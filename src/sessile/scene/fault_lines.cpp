@@ -11,8 +11,9 @@
 namespace sessile {
 
 namespace {
-constexpr std::size_t most_lines = 100;  // that people would read
-}
+constexpr std::size_t most_lines = 100;    // that people would read
+constexpr std::size_t longest_path = 300;  // letters of an override that are told
+}  // namespace
 
 std::string around(const std::string& path) {
   const auto cut = path.find_last_of(".[");
@@ -42,7 +43,10 @@ Json::Value parsed_or_thrown(SceneText& text, const std::filesystem::path& file)
 }
 
 std::string FaultLines::place(std::ptrdiff_t offset) const {
-  if (offset < 0) return "--set " + overrides_[static_cast<std::size_t>(-offset - 1)].path;
+  if (offset < 0) {
+    const std::string& path = overrides_[static_cast<std::size_t>(-offset - 1)].path;
+    return "--set " + (path.size() > longest_path ? path.substr(0, longest_path) + "..." : path);
+  }
   return fmt::format("{}:{}", file_, text_.line(offset));
 }
 

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "sessile/core/first_error.h"
+#include "sessile/core/memory_limit.h"
 #include "sessile/scene/frame.h"
 #include "sessile/scene/lattice.h"
 #include "sessile/scene/mesh_space.h"
@@ -31,7 +32,14 @@ std::vector<Vec3d> lattice(const Vec3d& centre, const Vec3d& size, double spacin
   std::vector<Vec3d> points;
   std::vector<char> taken(static_cast<std::size_t>(nx * ny));
   FirstError error;
+  const double most = memory_limit().bytes / estimated_bytes(1, 1);  // where the estimate fell short
   for (std::int64_t k = 0; k < nz; ++k) {
+    if (static_cast<double>(points.size()) > most) {
+      throw SceneError(
+          fmt::format("{}: needs more than {:.3g} particles, which is more than there is memory for "
+                      "(a larger spacing needs fewer)",
+                      who, most));
+    }
     const auto place = [&](std::int64_t i, std::int64_t j) {
       return centre +
              Vec3d{centred_place(i, nx, spacing), centred_place(j, ny, spacing), centred_place(k, nz, spacing)};
@@ -147,7 +155,9 @@ double estimate_fill(const Body& body, double spacing) {
         } else if constexpr (std::is_same_v<T, Cylinder>) {
           return pi * shape.radius * shape.radius * shape.height;
         } else {
-          return std::abs(closed_mesh(shape).volume());
+          const TriangleMesh mesh = closed_mesh(shape);
+          const double summed = std::abs(mesh.volume()), rough = MeshSpace(mesh).rough_volume();
+          return rough > 1.2 * summed ? rough : summed;
         }
       },
       body.shape);

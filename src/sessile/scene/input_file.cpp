@@ -84,6 +84,17 @@ std::string read_input(const std::filesystem::path& file, std::uintmax_t most, I
   return bytes;
 }
 
+std::ifstream stream_of(const std::filesystem::path& file) {
+  std::error_code error;
+  std::ifstream stream;
+  if (std::filesystem::is_regular_file(file, error)) {
+    stream.open(file, std::ios::binary);
+  } else {
+    stream.setstate(std::ios::failbit);
+  }
+  return stream;
+}
+
 std::string read_beginning(const std::filesystem::path& file, std::size_t most) {
   return OpenFile(file, Input::file).read(most);
 }

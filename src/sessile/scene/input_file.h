@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace sessile {
@@ -15,5 +16,9 @@ std::string read_input(const std::filesystem::path& file, std::uintmax_t most, I
 
 /// The first bytes of a file, `most` of them or all that there are. Throws as read_input().
 std::string read_beginning(const std::filesystem::path& file, std::size_t most);
+
+/// A stream of a file that is too long to be read at once. Of anything but a file, which is not waited for, and where
+/// it cannot be opened, one that has failed already.
+std::ifstream stream_of(const std::filesystem::path& file);
 
 }  // namespace sessile

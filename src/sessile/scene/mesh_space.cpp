@@ -117,6 +117,55 @@ bool MeshSpace::contains(const Vec3d& point) const {
   return inside;
 }
 
+/// The triangle's area as seen along z.
+double MeshSpace::shadow(const Triangle& triangle) const {
+  return 0.5 * std::abs(edge_side(vertices_[triangle[0]], vertices_[triangle[1]], vertices_[triangle[2]]));
+}
+
+/// Length inside the mesh of the line along z through a point, over the number of triangles that it meets.
+double MeshSpace::inside_share(const Vec3d& point) const {
+  std::vector<double> heights;
+  const double below = nodes_.front().box.low.z - 1;
+  any(
+      [&](const Box& b) {
+        return point.x >= b.low.x && point.x <= b.high.x && point.y >= b.low.y && point.y <= b.high.y;
+      },
+      [&](const Triangle& t) {
+        if (!above(t, {point.x, point.y, below})) return false;
+        const Vec3d &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
+        const double u = edge_side(b, c, point), v = edge_side(c, a, point), w = edge_side(a, b, point);
+        heights.push_back((u * a.z + v * b.z + w * c.z) / (u + v + w));
+        return false;
+      });
+  std::sort(heights.begin(), heights.end());
+  double inside = 0;
+  for (std::size_t k = 0; k + 1 < heights.size(); k += 2) inside += heights[k + 1] - heights[k];
+  return heights.empty() ? 0 : inside / static_cast<double>(heights.size());
+}
+
+double MeshSpace::rough_volume() const {
+  // So many that they do not take long where every line meets every triangle.
+  const std::size_t lines =
+      std::clamp<std::size_t>(200'000'000 / std::max<std::size_t>(1, triangles_.size()), 64, 1024);
+  const auto count = static_cast<double>(lines);
+  double total = 0;
+  for (const Triangle& t : triangles_) total += shadow(t);
+  // A line meets every triangle over its place: what is spread over areas counts as often as there are triangles.
+  double sum = 0, passed = 0;
+  std::size_t line = 0;
+  for (const Triangle& t : triangles_) {
+    passed += shadow(t);
+    for (; line < lines && (static_cast<double>(line) + 0.5) / count * total < passed; ++line) {
+      double u = std::fmod(static_cast<double>(line) * 0.7548776662466927 + 0.5, 1.0);  // evenly, by the plastic number
+      double v = std::fmod(static_cast<double>(line) * 0.5698402909980532 + 0.5, 1.0);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const Vec3d& a = vertices_[t[0]];
+      sum += inside_share(a + u * (vertices_[t[1]] - a) + v * (vertices_[t[2]] - a));
+    }
+  }
+  return total * sum / count;
+}
+
 /// Whether the ray from the point along z meets the triangle. Each edge is judged from its lower vertex to its higher,
 /// and a point on it counts to one side, so that exactly one of two neighbours is met.
 bool MeshSpace::above(const Triangle& triangle, const Vec3d& point) const {

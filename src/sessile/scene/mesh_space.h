@@ -17,6 +17,10 @@ class MeshSpace {
   /// Whether the point lies inside a closed mesh, by the parity of the triangles that a ray from it meets.
   bool contains(const Vec3d& point) const;
 
+  /// Roughly the volume of what contains() holds, from lines through points spread evenly over the triangles. Unlike a
+  /// sum over the triangles it does not take one part from another where they face opposite ways.
+  double rough_volume() const;
+
   /// Whether the way from a to b passes through a triangle.
   bool crossed(const Vec3d& a, const Vec3d& b) const;
 
@@ -35,6 +39,8 @@ class MeshSpace {
   Box box_of(std::uint32_t begin, std::uint32_t end) const;
   void split(std::uint32_t node);
   bool above(const Triangle& triangle, const Vec3d& point) const;
+  double shadow(const Triangle& triangle) const;
+  double inside_share(const Vec3d& point) const;
   bool passes(const Triangle& triangle, const Vec3d& a, const Vec3d& b) const;
   template <class Overlaps, class Visit>
   bool any(Overlaps&& overlaps, Visit&& visit) const;

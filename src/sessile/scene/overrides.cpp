@@ -12,6 +12,9 @@ namespace sessile {
 
 namespace {
 
+constexpr int deepest_path = 64;  // levels, as in a file: what walks over values calls itself once a level
+constexpr std::string_view too_deep = "nested more than 64 levels deep";
+
 /// Gives a value and all below it one offset.
 void mark_all(Json::Value& value, std::ptrdiff_t mark) {
   value.setOffsetStart(mark);
@@ -35,7 +38,8 @@ Json::Value* make_way(Json::Value& root, std::string_view path, std::ptrdiff_t m
   Json::Value* node = &root;
   std::string_view rest = path;
   const auto done = [&] { return std::string(path.substr(0, path.size() - rest.size())); };
-  while (!rest.empty()) {
+  for (int level = 0; !rest.empty(); ++level) {
+    if (level == deepest_path) return why = too_deep, nullptr;
     const std::string here = done();
     if (rest.front() == '[') {
       Json::ArrayIndex index = 0;
@@ -85,7 +89,7 @@ Fault apply_override(const Override& override_, std::ptrdiff_t mark, Json::Value
   Json::Value trial = root;  // a way that ends nowhere leaves nothing behind
   std::string why;
   Json::Value* const node = make_way(trial, override_.path, mark, why);
-  if (node == nullptr) return {override_.path, why, {}};
+  if (node == nullptr) return {why == too_deep ? "" : override_.path, why, {}};  // hundreds of levels are not repeated
   *node = std::move(*value);
   root = std::move(trial);
   return {};

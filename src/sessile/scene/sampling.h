@@ -22,8 +22,9 @@ std::vector<Vec3d> layer(const Emitter& emitter, double spacing);
 std::vector<Vec3d> sample_surface(const Solid& solid, double spacing);
 
 /// Roughly how many particles fill() and layer() will make: volume or area over that of one, and length over that of
-/// one for what is thinner than a sample. Costs no memory, so that a scene too large can be refused before it is tried.
-/// Throws as they do for meshes.
+/// one for what is thinner than a sample; of a mesh the larger of the volume that its triangles sum up to and a rough
+/// one by the rule by which it is filled. Costs no memory but a mesh's, so that a scene too large can be refused before
+/// it is tried. Throws as they do for meshes.
 double estimate_fill(const Body& body, double spacing);
 double estimate_layer(const Emitter& emitter, double spacing);
 

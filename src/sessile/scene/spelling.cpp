@@ -45,20 +45,28 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
 
 std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates, std::string_view kind) {
   if (const auto best = nearest(word, candidates); !best.empty()) {
-    return " (did you mean \"" + std::string(best) + "\"?)";
+    return " (did you mean " + in_quotes(best) + "?)";
   }
   std::string list = " (valid " + std::string(kind) + ": ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) list += (i == 0 ? "" : ", ") + std::string(candidates[i]);
-  return list + ")";
+  constexpr std::size_t most = 100;
+  for (std::size_t i = 0; i < std::min(most, candidates.size()); ++i)
+    list += (i == 0 ? "" : ", ") + printable(candidates[i]);
+  return list + (candidates.size() > most ? ", ...)" : ")");
 }
 
-std::string in_quotes(std::string_view text) {
+std::string printable(std::string_view text) {
   constexpr std::size_t longest = 60;
-  std::string result = "\"";
-  for (const char c : text.substr(0, longest)) {
-    result += std::iscntrl(static_cast<unsigned char>(c)) != 0 ? '?' : c;
+  const auto at = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+  std::string result;
+  for (std::size_t k = 0; k < std::min(longest, text.size()); ++k) {
+    // U+0080 to U+009F are control characters too: in UTF-8 two bytes, the first of them 0xC2.
+    const bool second_set = at(k) == 0xc2U && at(k + 1) >= 0x80U && at(k + 1) < 0xa0U;
+    if (second_set) ++k;
+    result += second_set || std::iscntrl(static_cast<int>(at(k))) != 0 ? '?' : text[k];
   }
-  return result + (text.size() > longest ? "...\"" : "\"");
+  return result + (text.size() > longest ? "..." : "");
 }
+
+std::string in_quotes(std::string_view text) { return '"' + printable(text) + '"'; }
 
 }  // namespace sessile

@@ -17,7 +17,11 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
 /// `kind` is the plural of what was expected ("keys").
 std::string spelling_hint(std::string_view word, std::span<const std::string_view> candidates, std::string_view kind);
 
-/// Text as it may stand in a message: in quotes, control characters replaced, cut when long.
+/// Text of a file as it may stand in a message: control characters replaced, which a terminal would obey, cut when
+/// long.
+std::string printable(std::string_view text);
+
+/// The same in quotes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace sessile

@@ -18,9 +18,11 @@ namespace sessile {
 namespace {
 
 constexpr double most_frames = 1e6;
-constexpr double coarsest_solid = 1.5;  // sample distance over particle spacing at which particles slip through
-constexpr double finest_solid = 0.05;   // below it samples cost memory and say nothing
-constexpr double farthest = 1 << 20;    // distance from the origin over spacing that float still resolves to 6 %
+constexpr double least_progress = 1e-15;     // step over the end's time: a double tells times 2e-16 of it apart
+constexpr std::size_t most_collected = 101;  // faults: a hundred are told, and that there are more
+constexpr double coarsest_solid = 1.5;       // sample distance over particle spacing at which particles slip through
+constexpr double finest_solid = 0.05;        // below it samples cost memory and say nothing
+constexpr double farthest = 1 << 20;         // distance from the origin over spacing that float still resolves to 6 %
 constexpr double least_spacing = 1e-12, greatest_spacing = 1e9;  // [m] outside, squares of lengths leave float
 
 /// Judges each number by its declared range, for scenes that no file was read for.
@@ -53,6 +55,7 @@ class RangeCheck {
 
  private:
   void number(const std::string& path, Range range, std::string_view unit, double value) {
+    if (faults_.size() >= most_collected) return;
     if (!std::isfinite(value)) {
       faults_.push_back({path, fmt::format("{} is not a finite number", value), {}});
     } else if (!range.holds(value)) {
@@ -91,11 +94,24 @@ class SceneCheck {
 
  private:
   void add(std::string path, std::string message, std::vector<std::string> uses = {}) {
+    if (faults_.size() >= most_collected) return;
     faults_.push_back({std::move(path), std::move(message), std::move(uses)});
   }
 
   void time() {
     const auto& time = scene_.time;
+    const auto stands_still = [&](std::string_view key, double dt) {
+      if (!(dt < least_progress * time.end)) return;
+      add(fmt::format("time.{}", key),
+          fmt::format("{} s is less than {} of time.end, {} s: the time could not be told from that before the step",
+                      dt, least_progress, time.end),
+          {"time.end"});
+    };
+    if (time.fixed_dt) {
+      stands_still("fixed_dt", *time.fixed_dt);
+    } else {
+      stands_still("dt_max", time.dt_max);
+    }
     if (time.dt_min > time.dt_max) {
       add("time.dt_min", fmt::format("{} s is more than time.dt_max, {} s", time.dt_min, time.dt_max), {"time.dt_max"});
     }

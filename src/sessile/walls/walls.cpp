@@ -41,16 +41,21 @@ Walls make_walls(const std::vector<Solid>& solids, const Scene& scene, const Gri
   set_materials(solids, scene.fluid, walls);
 
   const CubicSpline W(scene.support_radius(), scene.spacing);
-  NeighborList list;
-  list.build({walls.position, grid}, {walls.position, grid}, space, static_cast<Real>(scene.support_radius()));
-  const NeighborView near(list);
   const View3 x{walls.position.x.data(), walls.position.y.data(), walls.position.z.data()};
   walls.psi.resize(n);
   const Out1 psi{walls.psi.data()};
-  for_each_group(n, [&](Group b) {
-    const Lanes others = near.sum(b, [&](auto c) { return W.value(length(space.displacement(x[b], x[c]))); });
-    psi.set(b, Lanes(Real(1)) / (Lanes(W.at_zero()) + others));
-  });
+  const auto h = static_cast<Real>(scene.support_radius());
+  NeighborList list;
+  // Where samples are much closer than particles each has thousands of others near it: lists of all would fill memory.
+  for (const PlaceRange& part : parts_of(n, grid.fullest_cell())) {
+    list.build({walls.position, grid}, {walls.position, grid}, space, h, part);
+    const NeighborView near(list);
+    for_each_group(list.size(), [&](Group k) {
+      const Group b{part.begin + k.first};
+      const Lanes others = near.sum(k, [&](auto c) { return W.value(length(space.displacement(x[b], x[c]))); });
+      psi.set(b, Lanes(Real(1)) / (Lanes(W.at_zero()) + others));
+    });
+  }
   return walls;
 }
 

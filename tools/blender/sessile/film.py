@@ -116,6 +116,7 @@ class Extent:
 def render_whole(scene, file):
     """A picture is there whole or not at all."""
     part = file.with_name(f".{file.stem}.part.png")
+    part.unlink(missing_ok=True)  # a link that stands there is not to be written through
     scene.render.filepath = str(part)
     bpy.ops.render.render(write_still=True)
     os.replace(part, file)

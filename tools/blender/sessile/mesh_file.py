@@ -1,6 +1,7 @@
 """Triangle meshes in binary PLY files, as `sessile mesh` writes them. Needs NumPy, not Blender."""
 import dataclasses
 import pathlib
+import stat
 
 import numpy as np
 
@@ -36,6 +37,8 @@ class Mesh:
 def read_mesh(path):
     """Reads a mesh. Raises MeshFileError, or OSError where the file cannot be had."""
     path = pathlib.Path(path)
+    if not stat.S_ISREG(path.stat().st_mode):  # a pipe would be waited for, a device might never end
+        raise MeshFileError(f"{path}: is no file but a folder, a pipe or a device")
     data = path.read_bytes()
     elements, start = _header(path, data)
     if [name for name, _, _ in elements] != ["vertex", "face"]:
