@@ -127,7 +127,7 @@ class Folder(Disk):
         out, err = process.communicate(timeout=30)
         self.assertEqual((process.returncode, out), (FAILED, ""), err)
         self.assertRegex(err, message)
-        self.assertIn("the folder has to stay where it is while a run writes into it\n", err)
+        self.assertIn("the folder has to stay where it is, with all that is in it, while a run writes into it\n", err)
 
     def test_renamed(self):
         process = self.running()
@@ -135,7 +135,7 @@ class Folder(Disk):
         self.expect_failure(process, rf"\Asessile: the folder out has been renamed while it was written into; what is there is whole: "
                                      rf"{self.folder}/moved; ")
         self.assertFalse((self.folder / "out").exists())
-        self.call("run", "--resume", "moved", "--progress", "none", "--until", "1e-3", code=0)
+        self.call("run", "--resume", "moved", "--progress", "none", "--until", "0.1", code=0)
 
     def test_renamed_and_another_in_its_place(self):
         process = self.running()
@@ -170,6 +170,24 @@ class Folder(Disk):
 
     def test_unwritable(self):
         """As somebody whom permissions stop."""
+    def test_a_file_in_it_removed(self):
+        process = self.running()
+        (self.folder / "out/stats.csv").unlink()
+        self.expect_failure(process, r"\Asessile: out/stats\.csv has been removed while it was written; ")
+        self.assertEqual(self.summary()["status"], "failed")
+        self.assertNotIn("stats.csv", self.names())
+
+    def test_out_of_reach(self):
+        """Where it cannot be told whether the folder stands where it did, nobody is told that it was renamed."""
+        if os.geteuid() != 0:
+            self.skipTest("only root runs the program as somebody else")
+        process = self.running_as_nobody()
+        self.folder.chmod(0o700)
+        out, err = process.communicate(timeout=30)
+        self.assertEqual((process.returncode, out), (FAILED, ""))
+        self.assertRegex(err, r"\Asessile: cannot reach the folder out: Permission denied; give yourself the right to write there, or "
+                              r"choose another folder with -o\n")
+
         process = self.running() if os.geteuid() != 0 else self.running_as_nobody()
         (self.folder / "out").chmod(0o555)
         self.addCleanup((self.folder / "out").chmod, 0o755)
