@@ -110,6 +110,22 @@ class Threads(Limits):
 
 
 class Streams(Limits):
+    def test_those_of_openvdb(self):
+        """TBB would end the program by a signal where it cannot start one."""
+        self.call("run", self.write(tiny()), "-o", "out", "--progress", "none")
+        codes = set()
+        for after in (0, 1, 4, 7, 8, 9, 10, 11):
+            result = subprocess.run([PROGRAM, "mesh", "out", "--format", "vdb", "--frames", "0:2", "--threads", "4", "--again",
+                                     "--progress", "none"], cwd=self.folder, timeout=60, text=True, capture_output=True,
+                                    env={**self.environment(),
+                                         **self.loaded({"CALL": "pthread_create", "AFTER": after, "ERROR": 11})})
+            codes.add(result.returncode)
+            if result.returncode == FAILED:
+                self.assertRegex(result.stderr, "libgomp: Thread creation failed|cannot start a thread|sessile: cannot make out/surface/"
+                                                r"surface_000000\.vdb: .*; `--threads 1` takes fewer, ")
+                self.assertEqual([name for name in self.names("out/surface") if name.endswith(".part")], [])
+        self.assertEqual(codes, {DONE, FAILED})
+
     def test_closed_ones_do_not_become_files(self):
         for closed in (">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
             with self.subTest(closed):
