@@ -45,6 +45,15 @@ class Files(Limits):
             codes.add(code)
         self.assertEqual(codes - {NO_LIBRARIES}, {DONE, FAILED})
 
+    def test_24_are_enough_for_every_kind_of_file(self):
+        scene = larger()
+        scene["output"].update(formats=["vtp", "ply"], surface={"formats": ["ply", "obj", "vtp", "vdb", "usda"]})
+        for kinds, limit in ((None, 24), (["ply"], 13)):
+            if kinds:
+                scene["output"]["surface"]["formats"] = kinds
+            code, err = self.attempt(self.write(scene), "--threads", "1", before=f"ulimit -n {limit}")
+            self.assertEqual((code, err), (DONE, ""), limit)
+
     def test_what_helps_is_said(self):
         for limit in (8, 7, 9, 10):
             code, err = self.attempt(self.write(larger()), before=f"ulimit -n {limit}")
@@ -101,15 +110,6 @@ class Threads(Limits):
         self.assertEqual((code, err), (FAILED, "sessile: cannot start a thread: Resource temporarily unavailable; `--threads 1` takes "
                                                "fewer, `ulimit -u` and `ulimit -v` show the limits\n"))
 
-    def test_a_small_stack(self):
-        name = self.write(larger())
-        code, _ = self.attempt(name, "--threads", "2", before="ulimit -s 256")
-        self.assertEqual(code, DONE)
-        _, err = self.call("run", name, "-o", "out", code=BAD_INPUT, before="ulimit -s 128")
-        self.assertEqual(err, "sessile: the stack is limited to 128 KiB, which is too little; `ulimit -s 8192` gives enough\n")
-
-
-class Streams(Limits):
     def test_those_of_openvdb(self):
         """TBB would end the program by a signal where it cannot start one."""
         self.call("run", self.write(tiny()), "-o", "out", "--progress", "none")
@@ -126,6 +126,15 @@ class Streams(Limits):
                 self.assertEqual([name for name in self.names("out/surface") if name.endswith(".part")], [])
         self.assertEqual(codes, {DONE, FAILED})
 
+    def test_a_small_stack(self):
+        name = self.write(larger())
+        code, _ = self.attempt(name, "--threads", "2", before="ulimit -s 256")
+        self.assertEqual(code, DONE)
+        _, err = self.call("run", name, "-o", "out", code=BAD_INPUT, before="ulimit -s 128")
+        self.assertEqual(err, "sessile: the stack is limited to 128 KiB, which is too little; `ulimit -s 8192` gives enough\n")
+
+
+class Streams(Limits):
     def test_closed_ones_do_not_become_files(self):
         for closed in (">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
             with self.subTest(closed):
