@@ -52,14 +52,14 @@ class GoesBack(Stability):
         """A jet that hits a plate in steps too long for it, as long as it runs: it goes back time and again."""
         jet = {"shape": {"type": "rectangle", "width": 0.4, "depth": 0.4}, "placement": {"position": [0, 0, 0.6]},
                "velocity": [0, 0, -4], "interval": 0.15}
-        scene = thrown(stability={"on_fault": "go_back", "hold": 1e-6, "keep_interval": 0.1}, emitters=[jet])
+        scene = thrown(stability={"on_fault": "go_back", "hold": 1e-6, "keep_interval": 0.5}, emitters=[jet])
         scene["time"]["end"] = 1.5
         scene["bodies"] = []
         self.run_scene(scene)
         summary = self.summary()
         told = summary["stability"]
         self.assertGreater(told["went_back"], 2)
-        self.assertLess(told["undone_steps"], 2 * summary["steps"], told)
+        self.assertLess(told["undone_steps"], summary["steps"], told)  # were hold all, some six times as many
 
     def test_the_same_for_any_number_of_threads(self):
         scene = self.write(thrown(stability={"on_fault": "go_back"}))
