@@ -41,7 +41,7 @@ std::string_view advice_on_files(int reason) {
     case ENOENT:
     case ENOTDIR:
     case ESTALE:
-      return "the folder has to stay where it is while a run writes into it";
+      return "the folder has to stay where it is, with all that is in it, while a run writes into it";
     case EMFILE:
     case ENFILE:
       return "too few files may be open at once: `ulimit -n 256` is enough for any run";

@@ -56,13 +56,22 @@ Snapshot faulty_frame(const Simulation& simulation, const RunFault& fault) {
   return frame;
 }
 
-void write_fault_dump(const fs::path& folder, const Simulation& good, const Snapshot& faulty, const RunFault& fault,
-                      const std::string& advice) {
-  remove_fault_dump(folder);
-  create_output_folder(folder);
+namespace {
+
+void refuse_other_results(const fs::path& folder) {
+  for (const char* const name : {"scene.json", "stats.csv"}) {
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(folder / name, error))) continue;
+    throw FileError(fmt::format("{} holds results of another run, which are left alone", folder.string()));
+  }
+}
+
+void write_parts(const fs::path& folder, const Simulation& good, const Snapshot& faulty, const RunFault& fault,
+                 const std::string& advice) {
+  // First what tells it from other results: a run that was killed meanwhile leaves what the next one takes away.
+  write_whole(folder / fault_file_name, fault_json(fault, advice) + "\n");
   const Scene scene = scene_of_dump(good.scene());
   write_whole(folder / "scene.json", to_json(scene));
-  write_whole(folder / fault_file_name, fault_json(fault, advice) + "\n");
   FrameWriter frames(folder, scene.output.formats);
   frames.write_solids(take_solids(good.walls()));
   frames.push(take_snapshot(good, columns()));
@@ -78,6 +87,28 @@ void write_fault_dump(const fs::path& folder, const Simulation& good, const Snap
   CheckpointOutput one;
   one.keep = 1;
   Checkpoints(folder, one, {}).write(scene, good.state(), session_json(session));
+}
+
+}  // namespace
+
+void write_fault_dump(const fs::path& folder, const Simulation& good, const Snapshot& faulty, const RunFault& fault,
+                      const std::string& advice) {
+  remove_fault_dump(folder);
+  refuse_other_results(folder);
+  create_output_folder(folder);
+  try {
+    write_parts(folder, good, faulty, fault, advice);
+  } catch (...) {
+    // A half one can neither be opened nor gone on from, and takes room on a disk that is full.
+    try {
+      remove_fault_dump(folder);
+    } catch (const std::exception&) {
+      // The first error is the one to report.
+    }
+    std::error_code not_empty;
+    fs::remove(folder, not_empty);
+    throw;
+  }
 }
 
 void remove_fault_dump(const fs::path& folder) {

@@ -22,7 +22,7 @@ Snapshot faulty_frame(const Simulation& simulation, const RunFault& fault);
 
 /// Makes a folder of results of its own, which `sessile view`, `picture` and `run --resume` open: frame 0 is the good
 /// state, frame 1 the faulty one; a line of stats.csv and a checkpoint of the good state, and fault.json.
-/// Throws FileError.
+/// Throws FileError, and leaves nothing of it then; also where other results stand in that folder.
 void write_fault_dump(const std::filesystem::path& folder, const Simulation& good, const Snapshot& faulty,
                       const RunFault& fault, const std::string& advice);
 

@@ -18,7 +18,8 @@ struct FolderInUse : FileError {
 /// ask.
 class FolderLock {
  public:
-  /// The file within the folder that is locked, and names who holds it.
+  /// The file within the folder that is locked beside the folder itself, and names who holds it. A link of that name
+  /// gives way to a file.
   static constexpr const char* file_name = ".sessile.lock";
 
   /// Makes the folder where it is missing. Throws FolderInUse when another process has it, FileError when nothing can
@@ -31,14 +32,17 @@ class FolderLock {
   /// Why nobody is kept out, on a file system that knows no locks; empty where the lock holds.
   const std::string& warning() const { return warning_; }
 
-  /// Throws FileError when the folder does not stand any more where it did: what is written from now on would go
-  /// astray.
+  /// Throws FileError when the folder does not stand any more where it did, as what is written from now on would go
+  /// astray, or when that cannot be told, with the system's reason.
   void check() const;
 
   /// Whether check() would pass.
   bool in_place() const;
 
  private:
+  bool lock_file();
+  int look() const;
+
   std::filesystem::path folder_;
   Descriptor directory_, file_;
   std::string warning_;

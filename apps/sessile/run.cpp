@@ -39,8 +39,9 @@ void print_end(const SessionResult& result, const std::string& folder) {
 int say_failure(const std::exception& fault, const std::string& folder, bool begun) {
   tell(fault);
   const bool own_fault = dynamic_cast<const RunError*>(&fault) != nullptr;  // it would come again
-  if (begun && !own_fault && has_checkpoints(folder))
-    say(stderr, fmt::format("then go on with: sessile run --resume {}\n", folder));
+  // Without the lines so far it cannot go on.
+  const bool goes_on = has_checkpoints(folder) && std::filesystem::exists(std::filesystem::path(folder) / "stats.csv");
+  if (begun && !own_fault && goes_on) say(stderr, fmt::format("then go on with: sessile run --resume {}\n", folder));
   return run_failed;
 }
 

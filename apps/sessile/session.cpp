@@ -5,7 +5,6 @@
 #include <chrono>
 #include <tuple>
 #include <utility>
-#include <variant>
 
 #include "advice.h"
 #include "checkpoints.h"
@@ -22,18 +21,6 @@
 
 namespace sessile::app {
 namespace {
-
-bool promises_density(const Pressure& method) {
-  return std::visit(
-      [](const auto& solver) {
-        if constexpr (requires { solver.error; }) {
-          return true;
-        } else {
-          return false;
-        }
-      },
-      method);
-}
 
 /// Says once what the user should know while it happens.
 class Warnings {

@@ -109,7 +109,10 @@ void Stability::go_back(Simulation& simulation, const RunFault& fault, Progress&
   const double failed = state_.dt_limit > 0 ? std::min(state_.dt_limit, fault.dt) : fault.dt;
   state_.health = good.records.stability.health;
   state_.dt_limit = settings_.dt_factor * failed;
-  state_.until = std::max(state_.until, fault.time + settings_.hold.value_or(held_steps * fault.dt));
+  // For no less than what is undone: where every full step fails again, a run would else recompute the same for ever.
+  const double undone = std::max(2 * keep_interval(scene_), fault.time - good.state.time);
+  const double hold = std::max(settings_.hold.value_or(held_steps * fault.dt), undone);
+  state_.until = std::max(state_.until, fault.time + hold);
   ++state_.retries;
   ++state_.went_back;
   state_.undone_steps += fault.step - good.state.totals.steps;
@@ -141,10 +144,13 @@ std::string Stability::dump(const std::filesystem::path& results, Simulation& si
     simulation.go_back_to(good().state);
     write_fault_dump(folder, simulation, faulty_, *fault_, advice(*fault_, settings_));
   } catch (const std::exception& e) {
-    return fmt::format("The state of the fault could not be kept: {}", sentence(e));
+    const std::string help = advice(e);
+    return fmt::format("The state of the fault could not be kept: {}{}{}", sentence(e), help.empty() ? "" : "; ", help);
   }
-  return fmt::format("{} holds the last good state, of {:g} s, and the faulty one: `sessile view {}` shows them",
-                     folder.string(), good().state.time, folder.string());
+  return fmt::format(
+      "{} holds the last good state, of {:g} s, and the faulty one: `sessile view {}` shows them, and "
+      "`sessile run --resume {} --set {}` goes on from the good one",
+      folder.string(), good().state.time, folder.string(), folder.string(), way_on(*fault_));
 }
 
 }  // namespace sessile::app

@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "sessile/core/error.h"
@@ -54,6 +57,31 @@ bool finite(const Vec3<T>& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
+/// What to add to a particle's way so that it is seen from across each periodic face that it leaves by, and from both
+/// sides at edges; first of all nothing. The images of one way show the same passage.
+struct Images {
+  std::array<Vec3d, 8> shift{};
+  std::size_t count = 1;
+};
+
+Images images(const std::optional<Domain>& box, const Vec3d& to) {
+  Images all;
+  if (!box) return all;
+  const auto leave = [&](Edge edge, double x, double start, double end, double Vec3d::*axis) {
+    if (edge != Edge::periodic || (x >= start && x < end)) return;
+    const double shift = -(end - start) * std::floor((x - start) / (end - start));
+    for (std::size_t k = 0; k < all.count; ++k) {
+      all.shift[all.count + k] = all.shift[k];
+      all.shift[all.count + k].*axis += shift;
+    }
+    all.count *= 2;
+  };
+  leave(box->x, to.x, box->min.x, box->max.x, &Vec3d::x);
+  leave(box->y, to.y, box->min.y, box->max.y, &Vec3d::y);
+  leave(box->z, to.z, box->min.z, box->max.z, &Vec3d::z);
+  return all;
+}
+
 }  // namespace
 
 void Simulation::move(double dt) {
@@ -67,8 +95,13 @@ void Simulation::move(double dt) {
       return;
     }
     Moves own;
+    const Images seen = images(scene_.domain, to);
+    const auto crosses = [&](const SolidGeometry& solid) {
+      return std::any_of(seen.shift.begin(), seen.shift.begin() + static_cast<std::ptrdiff_t>(seen.count),
+                         [&](const Vec3d& shift) { return solid.crossed(from + shift, to + shift); });
+    };
     for (std::size_t s = 0; s < solids_.size(); ++s) {
-      if (!solids_[s].crossed(from, to)) continue;
+      if (!crosses(solids_[s])) continue;
       if (holds_liquid_[s]) {  // which says more than another solid on the way
         own = {};
         own.escapes = 1;

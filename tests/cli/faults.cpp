@@ -3,6 +3,7 @@
 ///
 ///   FAULT_CALL=fsync     which call: write, fsync, rename, flock, pthread_create (from `main` on), malloc, clock, log
 ///   FAULT_PATH=frame_    of files whose path holds this text only
+///   FAULT_ENDS=1         and whose path ends in it
 ///   FAULT_AFTER=3        so many such calls still go through
 ///   FAULT_COUNT=2        then so many fail; all that follow unless given
 ///   FAULT_ERROR=28       with this errno
@@ -46,8 +47,10 @@ bool begun = false;
 
 /// Whether this call is one that fails; errno then says why.
 bool fails(const char* call, const char* path) {
-  if (std::strcmp(setting("FAULT_CALL"), call) != 0 || std::strstr(path, setting("FAULT_PATH")) == nullptr)
-    return false;
+  const char* const wanted = setting("FAULT_PATH");
+  if (std::strcmp(setting("FAULT_CALL"), call) != 0 || std::strstr(path, wanted) == nullptr) return false;
+  const std::size_t size = std::strlen(path), end = std::strlen(wanted);
+  if (*setting("FAULT_ENDS") != '\0' && std::strcmp(path + size - end, wanted) != 0) return false;
   const long number = ++seen, after = atol(setting("FAULT_AFTER")), count = atol(setting("FAULT_COUNT"));
   if (number <= after || (count > 0 && number > after + count)) return false;
   if (const char* const hold = setting("FAULT_HOLD"); *hold != '\0') {

@@ -45,6 +45,15 @@ class Files(Limits):
             codes.add(code)
         self.assertEqual(codes - {NO_LIBRARIES}, {DONE, FAILED})
 
+    def test_24_are_enough_for_every_kind_of_file(self):
+        scene = larger()
+        scene["output"].update(formats=["vtp", "ply"], surface={"formats": ["ply", "obj", "vtp", "vdb", "usda"]})
+        for kinds, limit in ((None, 24), (["ply"], 13)):
+            if kinds:
+                scene["output"]["surface"]["formats"] = kinds
+            code, err = self.attempt(self.write(scene), "--threads", "1", before=f"ulimit -n {limit}")
+            self.assertEqual((code, err), (DONE, ""), limit)
+
     def test_what_helps_is_said(self):
         for limit in (8, 7, 9, 10):
             code, err = self.attempt(self.write(larger()), before=f"ulimit -n {limit}")
@@ -59,7 +68,11 @@ class Memory(Limits):
                r"says what a scene takes; a larger spacing takes less, and `ulimit -v` shows a limit|cannot start a thread: )")
 
     def test_allocations_may_fail_at_any_time(self):
-        name, after, failed = self.write(larger()), 0, 0
+        name, failed = self.write(larger()), 0
+        for after in range(0, 132, 12):  # also in zlib, and where frames are encoded
+            code, err = self.attempt(name, "--threads", "2", faults={"CALL": "malloc", "SIZE": 4096, "AFTER": after, "ERROR": 12})
+            self.expect(code, err, self.MESSAGE)
+        after = 0
         while True:
             code, err = self.attempt(name, "--threads", "2", faults={"CALL": "malloc", "SIZE": 4096, "AFTER": after, "ERROR": 12})
             self.expect(code, err, self.MESSAGE)
@@ -96,6 +109,22 @@ class Threads(Limits):
         code, err = self.attempt(self.write(larger()), faults={"CALL": "pthread_create", "ERROR": 11})
         self.assertEqual((code, err), (FAILED, "sessile: cannot start a thread: Resource temporarily unavailable; `--threads 1` takes "
                                                "fewer, `ulimit -u` and `ulimit -v` show the limits\n"))
+
+    def test_those_of_openvdb(self):
+        """TBB would end the program by a signal where it cannot start one."""
+        self.call("run", self.write(tiny()), "-o", "out", "--progress", "none")
+        codes = set()
+        for after in (0, 1, 4, 7, 8, 9, 10, 11):
+            result = subprocess.run([PROGRAM, "mesh", "out", "--format", "vdb", "--frames", "0:2", "--threads", "4", "--again",
+                                     "--progress", "none"], cwd=self.folder, timeout=60, text=True, capture_output=True,
+                                    env={**self.environment(),
+                                         **self.loaded({"CALL": "pthread_create", "AFTER": after, "ERROR": 11})})
+            codes.add(result.returncode)
+            if result.returncode == FAILED:
+                self.assertRegex(result.stderr, "libgomp: Thread creation failed|cannot start a thread|sessile: cannot make out/surface/"
+                                                r"surface_000000\.vdb: .*; `--threads 1` takes fewer, ")
+                self.assertEqual([name for name in self.names("out/surface") if name.endswith(".part")], [])
+        self.assertEqual(codes, {DONE, FAILED})
 
     def test_a_small_stack(self):
         name = self.write(larger())

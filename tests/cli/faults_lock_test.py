@@ -61,6 +61,37 @@ class Runs(Lock):
         (self.folder / "out" / LOCK).write_text(f"{os.getpid()} {socket.gethostname()}\n")
         self.call("run", self.write(tiny()), "-o", "out", "--progress", "none")
 
+    def test_a_lock_file_that_is_taken_out_lets_nobody_in(self):
+        first = self.running()
+        (self.folder / "out" / LOCK).unlink()
+        _, err = self.call("run", self.write(tiny()), "-o", "out", code=IN_USE)
+        self.assertIn("out: another process writes into this folder; wait until it is done, or give another folder", err)
+        # Nor does the first take out what then has the name.
+        (self.folder / "out" / LOCK).write_text("of somebody else")
+        self.stop(first)
+        self.assertEqual((self.folder / "out" / LOCK).read_text(), "of somebody else")
+
+    def test_where_folders_cannot_be_locked_the_file_is(self):
+        faults = {"CALL": "flock", "PATH": "/out", "ERROR": 9, "ENDS": 1}
+        first = self.start("run", self.write(tiny(**ENDLESS), "long.json"), "-o", "out", "--progress", "none", faults=faults)
+        self.wait_for("out/frame_000001.vtp", process=first)
+        _, err = self.call("run", self.write(tiny()), "-o", "out", code=IN_USE, faults=faults)
+        self.assertIn(f"out: process {first.pid} on ", err)
+        _, err = self.call("run", "s.json", "-o", "elsewhere", faults={**faults, "PATH": "/elsewhere"})
+        self.assertNotIn("warning", err)
+
+    def test_links_in_place_of_the_lock_file_are_replaced(self):
+        (self.folder / "out").mkdir()
+        lock, mine = self.folder / "out" / LOCK, self.folder / "mine.txt"
+        for link in (lock.hardlink_to, lock.symlink_to):
+            mine.write_text("mine")
+            link(mine)
+            self.call("run", self.write(tiny()), "-o", "out", "--progress", "none")
+            self.assertEqual(mine.read_text(), "mine")
+            self.assertNotIn(LOCK, self.names())
+        os.mkfifo(lock)
+        self.call("run", "s.json", "-o", "out", "--progress", "none")
+
     def test_of_many_in_the_same_instant_one_runs(self):
         scene = self.write(tiny(**ENDLESS))
         several = [self.start("run", scene, "-o", "out", "--progress", "none", before="kill -STOP $$") for _ in range(6)]

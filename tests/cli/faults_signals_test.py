@@ -1,9 +1,11 @@
 """Signals: which end a run after the step at hand, which at once, which not at all; and what is left."""
+import contextlib
+import os
 import shutil
 import time
 
 from frames import read_ply, read_vtp
-from sessile_cli import CliTest, DONE, ended_by, signal, tiny, unittest
+from sessile_cli import CliTest, DONE, PROGRAM, ended_by, signal, subprocess, tiny, unittest
 
 ENDLESS = dict(time={"end": 1e4, "fixed_dt": 0.005}, output={"frame_interval": 0.02})
 
@@ -55,6 +57,44 @@ class Once(Signals):
                 process.send_signal(which)
                 process.send_signal(which)
                 self.expect_end(process, which)
+
+
+class Unread(Signals):
+    """Progress goes into a pipe that is full and that nobody reads: the run waits, and a signal ends it all the same."""
+
+    def blocked(self):
+        shutil.rmtree(self.folder / "out", ignore_errors=True)
+        read, write = os.pipe()
+        self.addCleanup(os.close, read)
+        os.set_blocking(write, False)
+        with contextlib.suppress(BlockingIOError):
+            while True:
+                os.write(write, b"x" * 4096)
+        os.set_blocking(write, True)  # of the pipe's end, which the program has too
+        process = subprocess.Popen([PROGRAM, "run", self.write(tiny(**ENDLESS)), "-o", "out", "--progress", "json"], cwd=self.folder,
+                                   env=self.environment(), text=True, stdin=subprocess.DEVNULL, stdout=write,
+                                   stderr=subprocess.PIPE)
+        os.close(write)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        self.wait_for("out/frame_000000.vtp", process=process)
+        until, seen = time.monotonic() + 30, None
+        while seen != (seen := sorted(self.names())):
+            self.assertLess(time.monotonic(), until, "it does not wait")
+            time.sleep(1)
+        return process
+
+    def test_one_is_enough(self):
+        for times in (1, 2):
+            process = self.blocked()
+            for _ in range(times):
+                process.send_signal(signal.SIGTERM)
+            _, err = process.communicate(timeout=10)
+            self.assertEqual(process.returncode, ended_by(signal.SIGTERM), err)
+            self.assertEqual(self.summary()["status"], "interrupted")
+            self.assertEqual(len(self.names("out/checkpoints")), 1)
+            self.expect_whole_files()
 
 
 class Twice(Signals):

@@ -1,5 +1,7 @@
 """sessile picture: what is in its pictures and videos, what it says of bad input."""
+import os
 import shutil
+import stat
 import subprocess
 import time
 
@@ -50,6 +52,26 @@ class Picture(CliTest):
                 self.assertFalse(is_blue(at(x, z)), f"a particle at {x}, {z}: {at(x, z)}")
         for x in (-0.05, 0.05):  # where four spheres leave a gap
             self.assertFalse(is_blue(at(x, 0.45)), f"no gap at {x}, 0.45: {at(x, 0.45)}")
+
+    def test_a_scene_that_goes_wrong_has_none(self):
+        self.write(tiny(gravity=[0, 0, -3e38], time={"end": 1e4, "fixed_dt": 1e3}), "crushing.json")
+        self.write(tiny(time={"end": 0.05, "fixed_dt": 0.01}, gravity=[0, 0, 0], stability={"speed": False},
+                        bodies=[{"shape": {"type": "box", "size": [0.3, 0.3, 0.3]}, "placement": {"position": [0, 0, 0.5]},
+                                 "velocity": [0, 0, -100]}]), "shot.json")
+        for scene, message in (("crushing.json", r"\Asessile: 27 of 27 particles have no finite position, .*\. A smaller "
+                                                 r"time\.fixed_dt may [^`]*\n\Z"),
+                               ("shot.json", r"\Asessile: particle \d+ passed through the solid \"floor\" in step 1 .*`--set "
+                                             r"stability\.passages=false`")):
+            _, err = self.call("picture", scene, "-o", "a.png", "--progress", "none", code=FAILED)
+            self.assertRegex(err, message)
+            self.assertFalse((self.folder / "a.png").exists())
+
+    @unittest.skipIf(os.geteuid() != 0, "only root makes devices")
+    def test_a_device_is_written_into(self):
+        os.mknod(self.folder / "a.png", 0o666 | stat.S_IFCHR, os.makedev(1, 3))
+        self.call("picture", "s.json", "-o", "a.png", "--time", 0.005, "--progress", "none")
+        self.assertTrue(stat.S_ISCHR((self.folder / "a.png").stat().st_mode))
+        self.assertEqual([path.name for path in self.folder.glob(".*")], [])
 
     def test_looks_and_options_change_the_picture(self):
         self.run_scene()

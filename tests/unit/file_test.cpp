@@ -1,6 +1,8 @@
 #include "sessile/output/file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <string>
@@ -52,6 +54,33 @@ TEST(WriteWhole, DoesNotReplaceAFolder) {
   std::filesystem::create_directory(folder / "x.bin");
   EXPECT_THROW(write_whole(folder / "x.bin", "x"), FileError);
   EXPECT_EQ(folder.entries(), 1u);
+}
+
+/// A device that takes everything in, as /dev/null is; false where the user may not make one.
+bool make_device(const std::filesystem::path& path) { return mknod(path.c_str(), S_IFCHR | 0666, makedev(1, 3)) == 0; }
+
+TEST(WriteWhole, WritesADeviceAsItIs) {
+  TemporaryFolder folder;
+  if (!make_device(folder / "x.bin")) GTEST_SKIP() << "only root makes devices";
+  write_whole(folder / "x.bin", "x");
+  EXPECT_TRUE(std::filesystem::is_character_file(folder / "x.bin"));
+  EXPECT_EQ(folder.entries(), 1u);
+  EXPECT_EQ(message_of<FileError>([&] { write_whole("/dev/full", "x"); }),
+            "cannot write /dev/full: No space left on device");
+  EXPECT_EQ(message_of<FileError>([&] { write_whole("/dev/sessile-test", "x"); }),
+            "cannot write /dev/sessile-test: No such file or directory");
+  write_whole(part_name(folder / "x.bin"), "x");
+  EXPECT_THROW(finish_part(folder / "x.bin"), FileError);
+  EXPECT_TRUE(std::filesystem::is_character_file(folder / "x.bin"));
+  EXPECT_EQ(folder.entries(), 1u);
+}
+
+/// Whoever planted it may not have a device written.
+TEST(WriteWhole, ReplacesALinkToADevice) {
+  TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/full", folder / "x.bin");
+  write_whole(folder / "x.bin", "x");
+  EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / "x.bin")));
 }
 
 TEST(CreateOutputFolder, MakesAllOfThePathAndTakesOneThatExists) {
@@ -116,6 +145,18 @@ TEST(LineFile, TakesBackHalfALine) {
   EXPECT_EQ(read_file(folder / "x.csv"), "first\n");
   file.append("third\n");
   EXPECT_EQ(read_file(folder / "x.csv"), "first\nthird\n");
+}
+
+TEST(LineFile, SaysThatItHasBeenRemoved) {
+  TemporaryFolder folder;
+  const auto path = folder / "x.csv";
+  LineFile file(path);
+  file.append("1\n");
+  std::filesystem::remove(path);
+  const std::string message = path.string() + " has been removed while it was written";
+  EXPECT_EQ(message_of<FileError>([&] { file.append("2\n"); }), message);
+  EXPECT_EQ(message_of<FileError>([&] { file.sync(); }), message);
+  EXPECT_EQ(file.size(), 2u);
 }
 
 TEST(LineFile, SaysThatTheDiskIsFull) {

@@ -83,6 +83,34 @@ TEST(Health, LetsAFastFreeFlightBe) {
   EXPECT_TRUE(faults(simulation, {}, 50).empty());
 }
 
+/// ... but where dt_min made the step longer than its bounds asked for, nothing has held it to a sane one.
+TEST(Health, FindsAWayTooLongInAStepOfDtMin) {
+  Scene scene = test::block(4);
+  scene.time.fixed_dt.reset();
+  scene.time.dt_min = scene.time.dt_max = 0.01;
+  scene.bodies[0].velocity = {15, 0, 0};  // 1.5 dx a step, of the 2 dx that count
+  Simulation slow(scene);
+  EXPECT_TRUE(faults(slow, {}, 50).empty());
+  EXPECT_EQ(slow.last_step().bound, "dt_min");
+  scene.bodies[0].velocity = {300, 0, 0};
+  Simulation simulation(scene);
+  const auto found = faults(simulation, {}, 50);
+  ASSERT_EQ(found.size(), 1U);
+  const RunFault& f = found[0];
+  EXPECT_EQ(f.kind, RunFaultKind::speed);
+  EXPECT_EQ(f.step, 1);
+  EXPECT_NEAR(f.velocity.x, 300, 1);
+  EXPECT_NE(f.message.find("went 3 m, 15 support radii, in step 1 of 0.01 s (dt_min, above the cfl bound)"),
+            std::string::npos)
+      << f.message;
+  EXPECT_NE(advice(f, {}).find("A smaller time.dt_min"), std::string::npos) << advice(f, {});
+  EXPECT_EQ(way_on(f), "time.dt_min=0.005");
+  StabilitySettings settings;
+  settings.speed = false;
+  Simulation unwatched(scene);
+  EXPECT_TRUE(faults(unwatched, settings, 5).empty());
+}
+
 TEST(Health, TellsOfAPassageAndCountsItWhereAsked) {
   Scene scene = test::block(3, 0.01);
   scene.bodies[0].placement.position = {0, 0, 1};
@@ -186,6 +214,27 @@ TEST(Health, FindsALiquidThatStaysCompressed) {
   EXPECT_EQ(found[0].kind, RunFaultKind::density);
   EXPECT_NE(found[0].message.find("40 pressure solves in a row"), std::string::npos) << found[0].message;
   EXPECT_FALSE(health.doubtful()) << "a new stretch begins";
+}
+
+/// A solve that says it is done although the liquid is far from its density.
+TEST(Health, BelievesNoSolverBeyondFiveTimesTheLimit) {
+  StabilitySettings settings;
+  settings.density_steps = 20;
+  for (const double factor : {1.04, 1.2}) {
+    Scene scene = stuffed();
+    scene.bodies[0].mass_factor = factor;
+    Iisph easy;
+    easy.error = 0.5;
+    scene.pressure = easy;
+    Simulation simulation(scene);
+    const auto found = faults(simulation, settings, 40);
+    EXPECT_TRUE(simulation.last_step().converged);
+    ASSERT_EQ(found.size(), factor > 1.1 ? 1U : 0U) << factor;
+    if (found.empty()) continue;
+    EXPECT_EQ(found[0].kind, RunFaultKind::density);
+    EXPECT_NE(found[0].message.find("20 pressure solves that say they reached their error"), std::string::npos)
+        << found[0].message;
+  }
 }
 
 TEST(Health, IsTheSameForAnyNumberOfThreads) {

@@ -152,6 +152,33 @@ TEST(Simulation, CountsWhatPassesThroughASolid) {
   EXPECT_EQ(simulation.totals().lost, 8);
 }
 
+/// A way that leaves by a periodic face beside the solid that it crosses is seen from both sides of that face.
+TEST(Simulation, CountsWhatPassesThroughASolidAcrossPeriodicFaces) {
+  for (const double vx : {0.0, 40.0, -40.0}) {
+    Scene scene = test::block(1, 1e-2);
+    scene.domain = Domain{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, Edge::periodic, Edge::periodic, Edge::closed};
+    scene.bodies[0].placement.position = {vx > 0 ? 0.45 : -0.45, 0.45, -0.3};
+    scene.bodies[0].velocity = {vx, 0.5 * std::abs(vx), -60};  // through the floor once it is past the faces of x and y
+    Simulation simulation(scene);
+    simulation.step();
+    EXPECT_LT(static_cast<double>(simulation.particles().position.z[0]), -0.5);
+    EXPECT_EQ(simulation.totals().lost, 1) << vx;
+    EXPECT_EQ(simulation.health().escape.count, 1) << vx;
+  }
+  // One of the scene's own, which stands just beyond the face.
+  Scene scene = test::block(1, 1e-2);
+  scene.domain = Domain{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, Edge::periodic, Edge::open, Edge::open};
+  scene.bodies[0].placement.position = {0.45, 0, 0};
+  scene.bodies[0].velocity = {25, 0, 0};
+  Solid wall = plate(0.3, 0);
+  wall.placement = {{-0.4, 0, 0}, {0, 1, 0}, 90};
+  scene.solids = {wall};
+  Simulation simulation(scene);
+  simulation.step();
+  EXPECT_EQ(simulation.totals().lost, 1);
+  EXPECT_EQ(simulation.health().passage.count, 1);
+}
+
 TEST(Simulation, EndsWithASentenceWhenPositionsAreNoLongerFinite) {
   Scene scene = test::block(2);
   scene.gravity = {0, 0, -0.3 * static_cast<double>(std::numeric_limits<Real>::max())};

@@ -8,7 +8,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <future>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "sessile/core/error.h"
@@ -45,13 +51,42 @@ openvdb::FloatGrid::Ptr level_set(const SurfaceMesh& mesh, double voxel) {
   return grid;
 }
 
+/// How many threads TBB may use, this one among them: as many as can be started now. Where one of its own cannot be, it
+/// throws, or ends the program.
+std::size_t startable(std::size_t wanted) {
+  std::promise<void> enough;
+  const std::shared_future<void> wait(enough.get_future());
+  std::vector<std::thread> threads;
+  threads.reserve(wanted);
+  try {
+    while (threads.size() + 1 < wanted) threads.emplace_back([wait] { wait.wait(); });
+  } catch (const std::exception&) {
+    // With one alone TBB starts none.
+  }
+  const std::size_t all = threads.size() + 1;
+  enough.set_value();
+  for (std::thread& thread : threads) thread.join();
+  return all < wanted ? 1 : all;
+}
+
+/// Lets TBB take so many threads from now on; the least that it was told counts. For good: where a limit is taken back
+/// TBB starts threads, out of a destructor, and ends the program where it cannot.
+void limit_threads(std::size_t most) {
+  static std::mutex one;
+  const std::lock_guard lock(one);
+  static auto& limits = *new std::vector<std::unique_ptr<tbb::global_control>>;
+  static std::size_t least = std::numeric_limits<std::size_t>::max();
+  if (most >= least) return;
+  least = most;
+  limits.push_back(std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, most));
+}
+
 }  // namespace
 
 void write_vdb(const std::filesystem::path& file, const SurfaceMesh& mesh, double voxel) {
   check_extent(mesh, voxel);
   openvdb::initialize();
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(omp_get_max_threads()));
+  limit_threads(startable(static_cast<std::size_t>(omp_get_max_threads())));
   const auto part = part_name(file);
   std::error_code ignored;
   std::filesystem::remove(part, ignored);  // OpenVDB would write through a link
@@ -62,6 +97,17 @@ void write_vdb(const std::filesystem::path& file, const SurfaceMesh& mesh, doubl
   } catch (const openvdb::Exception& e) {
     std::filesystem::remove(part, ignored);
     throw FileError(fmt::format("cannot write {}: {}", file.string(), e.what()));
+  } catch (const std::system_error&) {
+    std::filesystem::remove(part, ignored);
+    throw;
+  } catch (const std::runtime_error& e) {  // TBB's, of a thread or memory that it did not get
+    std::filesystem::remove(part, ignored);
+    throw Error(
+        fmt::format("cannot make {}: {}; `--threads 1` takes fewer, `ulimit -u` and `ulimit -v` show the limits",
+                    file.string(), e.what()));
+  } catch (...) {
+    std::filesystem::remove(part, ignored);
+    throw;
   }
   finish_part(file);
 }

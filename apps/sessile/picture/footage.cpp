@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "mesh/selection.h"
 #include "prepare.h"
 #include "progress.h"
 #include "sessile/core/error.h"
+#include "sessile/measure/health.h"
 #include "sessile/surface/reconstruct.h"
 #include "shown.h"
 #include "signals.h"
@@ -134,11 +136,33 @@ SceneFootage::SceneFootage(const PictureOptions& options)
   moment_of(simulation_, options.field, stage_);  // a field that is not there shows now
 }
 
+namespace {
+
+/// One step, judged as `sessile run` judges it. Throws RunError when it goes wrong: there is nothing to show then.
+void step_well(Simulation& simulation, Health& health) {
+  StabilitySettings settings = simulation.scene().stability;
+  settings.on_fault = OnFault::go_back;  // which a picture does not do, so that it is no advice
+  std::vector<RunFault> found;
+  try {
+    simulation.step();
+    found = health.look(simulation);
+  } catch (const RunError&) {
+    if (simulation.health().not_finite.count == 0) throw;  // of another kind, which says itself what helps
+    found = health.look(simulation);
+  }
+  for (const RunFault& fault : found) {
+    if (fault.counts) throw RunError(fmt::format("{}. {}", fault.message, advice(fault, settings)));
+  }
+}
+
+}  // namespace
+
 void SceneFootage::play(const TakeMoment& take) {
+  Health health(simulation_.scene().stability);
   Progress progress(progress_style(options_.progress), "", simulation_);
   for (const double time : times_) {
     while (simulation_.time() < time * (1 - 1e-9) && !stop_asked()) {
-      simulation_.step();
+      step_well(simulation_, health);
       progress.update(simulation_);
     }
     if (stop_asked()) break;

@@ -11,6 +11,9 @@
 namespace sessile {
 namespace {
 
+/// How many density_limits of compression a solve's own word weighs less than.
+constexpr double beyond_a_solves_word = 5;
+
 std::string place(const Vec3d& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x, x.y, x.z); }
 
 /// `(0.1, 0, 2) m with (0, 0, -3) m/s`
@@ -22,6 +25,13 @@ std::string whereabouts(const RunFault& f) {
 std::string step_text(const RunFault& f) {
   const std::string above = f.overruled.empty() ? "" : fmt::format(", above the {} bound", f.overruled);
   return fmt::format("step {} of {:g} s ({}{}), to {:g} s", f.step, f.dt, f.bound, above, f.time);
+}
+
+/// The change that lets a run go on where a particle is through a solid, or "": that spoils little else.
+std::string warning_only(const RunFault& fault) {
+  if (fault.kind == RunFaultKind::escape) return "stability.escapes=false";
+  if (fault.kind == RunFaultKind::passage) return "stability.passages=false";
+  return "";
 }
 
 std::string others(const RunFault& f) {
@@ -67,6 +77,34 @@ RunFault speed(const Simulation& simulation) {
   return f;
 }
 
+/// The particle that went farther in the step than anything acts on it, where dt_min made the step longer than its
+/// bounds ask for: none of them has held what it did. -1 where there is none.
+int farthest_beyond(const Simulation& simulation, double limit) {
+  const StepReport& last = simulation.last_step();
+  if (last.bound != "dt_min") return -1;
+  const auto& velocity = simulation.particles().velocity;
+  int farthest = -1;
+  double most = limit * simulation.units().support_radius / last.dt;
+  for (std::size_t k = 0; k < velocity.size(); ++k) {
+    const double v = length(vec_cast<double>(velocity[k]));
+    if (!(v > most)) continue;
+    most = v;
+    farthest = static_cast<int>(k);
+  }
+  return farthest;
+}
+
+RunFault too_fast(const Simulation& simulation, int place) {
+  const Particles& p = simulation.particles();
+  const auto k = static_cast<std::size_t>(place);
+  RunFault f = begun(simulation, RunFaultKind::speed,
+                     {1, p.id[k], vec_cast<double>(p.position[k]), vec_cast<double>(p.velocity[k])});
+  const double way = length(f.velocity) * f.dt;
+  f.message = fmt::format("particle {} went {:.3g} m, {:.3g} support radii, in {}; it is at {}", f.particle, way,
+                          way / simulation.units().support_radius, step_text(f), whereabouts(f));
+  return f;
+}
+
 /// Names the densest particle, and counts those above `limit` rest densities.
 RunFault of_the_densest(const Simulation& simulation, RunFaultKind kind, Real limit) {
   const auto& density = simulation.density();
@@ -89,10 +127,13 @@ RunFault collapse(const Simulation& simulation, double limit) {
 RunFault density(const Simulation& simulation, int steps) {
   const auto& density = simulation.density();
   RunFault f = of_the_densest(simulation, RunFaultKind::density, 1);
+  const char* const solves = simulation.last_step().converged ? "that say they reached their error went by"
+                                                              : "in a row ended above their error";
   f.message = fmt::format(
-      "the liquid stays compressed, by {:.3g} % on average, and {} pressure solves in a row ended above their error "
-      "without getting better, up to {}; most of all particle {}, by {:.3g} %, at {}",
-      100 * compression(density).average, steps, step_text(f), f.particle,
+      "the liquid stays compressed, by {:.3g} % on average, and {} pressure solves {} without getting better, up to "
+      "{}; "
+      "most of all particle {}, by {:.3g} %, at {}",
+      100 * compression(density).average, steps, solves, step_text(f), f.particle,
       100 * (static_cast<double>(density[densest(density)]) - 1), whereabouts(f));
   return f;
 }
@@ -118,6 +159,9 @@ std::vector<RunFault> Health::look(const Simulation& simulation) {
   }
   if (settings_.speed && last.throw_length > settings_.speed_limit * simulation.units().support_radius) {
     found.push_back(speed(simulation));
+  } else if (settings_.speed) {
+    const int farthest = farthest_beyond(simulation, settings_.speed_limit);
+    if (farthest >= 0) found.push_back(too_fast(simulation, farthest));
   }
   if (settings_.density && stays_compressed(simulation)) {
     found.push_back(density(simulation, settings_.density_steps));
@@ -134,11 +178,13 @@ std::vector<RunFault> Health::look(const Simulation& simulation) {
   return found;
 }
 
-/// Judges stretches of density_steps steps, one after the other. A step whose solve reached its error, or whose liquid
-/// is compressed less, ends a stretch.
+/// Judges stretches of density_steps steps, one after the other. A step whose liquid is compressed less than counts
+/// ends a stretch.
 bool Health::stays_compressed(const Simulation& simulation) {
-  const double error = simulation.last_step().converged ? 0 : compression(simulation.density()).average;
-  if (!(error > settings_.density_limit)) {
+  const bool promised = promises_density(simulation.scene().pressure);
+  const double error = promised ? compression(simulation.density()).average : 0;
+  const double limit = settings_.density_limit * (simulation.last_step().converged ? beyond_a_solves_word : 1);
+  if (!(error > limit)) {
     state_ = {};
     return false;
   }
@@ -153,14 +199,25 @@ bool Health::stays_compressed(const Simulation& simulation) {
 }
 
 std::string advice(const RunFault& fault, const StabilitySettings& settings) {
-  std::string text = fault.bound == "fixed"
-                         ? "A smaller time.fixed_dt may carry it over this, or leave it out for steps "
-                           "that follow the motion"
-                         : "A smaller time.dt_max or time.cfl may carry it over this";
+  std::string text = "A smaller time.dt_max or time.cfl may carry it over this";
+  if (fault.bound == "fixed") {
+    text = "A smaller time.fixed_dt may carry it over this, or leave it out for steps that follow the motion";
+  } else if (fault.bound == "dt_min") {
+    text = "A smaller time.dt_min may carry it over this: the other bounds ask for shorter steps than it allows";
+  }
   if (fault.kind == RunFaultKind::collapse) text += ", or less tension, or with wcsph a greater pressure.sound_speed";
   if (fault.kind == RunFaultKind::density) text += ", or more pressure.max_iterations";
+  if (const std::string warned = warning_only(fault); !warned.empty()) {
+    text += fmt::format("; with `--set {}` it is a warning and a count", warned);
+  }
   if (settings.on_fault == OnFault::stop) text += "; stability.on_fault = \"go_back\" tries shorter steps by itself";
   return text;
+}
+
+std::string way_on(const RunFault& fault) {
+  if (const std::string warned = warning_only(fault); !warned.empty()) return warned;
+  const std::string_view key = fault.bound == "fixed" ? "fixed_dt" : fault.bound == "dt_min" ? "dt_min" : "dt_max";
+  return fmt::format("time.{}={:.3g}", key, fault.dt / 2);
 }
 
 }  // namespace sessile

@@ -50,9 +50,12 @@ struct HealthState {
 ///               of time and memory
 ///   speed       a step throws a particle more than speed_limit support radii off the way of its velocity. What acts
 ///               on it reaches no farther than one of them: what the step reckoned with no longer holds there. A step
-///               within its bounds throws one by 0.06 dx, and pressure that stops it or parts a pair by about dx
+///               within its bounds throws one by 0.06 dx, and pressure that stops it or parts a pair by about dx.
+///               So is a way of more than that, |v| dt, in a step that dt_min made longer than the bounds ask for
 ///   density     in density_steps steps in a row the solve ended above its error with an average compression above
-///               density_limit at the new positions, on the later half of them no less than on the first
+///               density_limit at the new positions, on the later half of them no less than on the first. A solve that
+///               says it reached its error counts as well when the compression is above five times density_limit: what
+///               it predicts then has little to do with the liquid
 ///   escape      a particle passes through a container or a closed face of the domain
 ///   passage     one passes through another solid
 class Health {
@@ -77,5 +80,8 @@ class Health {
 
 /// What can be done about it, as a sentence.
 std::string advice(const RunFault& fault, const StabilitySettings& settings);
+
+/// The change that a run may go on with from the state before: `time.fixed_dt=0.01`, `stability.passages=false`.
+std::string way_on(const RunFault& fault);
 
 }  // namespace sessile

@@ -31,13 +31,21 @@ int open_descriptor(const fs::path& path, int flags) {
   return descriptor;
 }
 
+/// Whether a name stands for what is no file: a device, or anything in /dev, where links lead on to devices and pipes.
+/// It is written into as it is. Another link is never followed, even to a device.
+bool is_device(const fs::path& path) {
+  struct stat there {};
+  if (::lstat(path.c_str(), &there) == 0 && (S_ISCHR(there.st_mode) || S_ISBLK(there.st_mode))) return true;
+  std::error_code unknown;
+  return fs::canonical(path.has_parent_path() ? path.parent_path() : ".", unknown) == "/dev";
+}
+
 /// Opens a file that is new: what stands there, a link of either kind or a pipe too, gives way and is not written into.
 /// A device is opened as it is. Returns -1 with errno.
 int open_anew(const fs::path& path, int flags) {
-  struct stat there {};
-  const bool device = ::lstat(path.c_str(), &there) == 0 && (S_ISCHR(there.st_mode) || S_ISBLK(there.st_mode));
-  if (!device && ::unlink(path.c_str()) != 0 && errno != ENOENT) return -1;
-  return open_descriptor(path, O_WRONLY | O_CREAT | O_NOFOLLOW | (device ? 0 : O_EXCL) | flags);
+  if (is_device(path)) return open_descriptor(path, O_WRONLY | O_NOCTTY | flags);
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) return -1;
+  return open_descriptor(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_EXCL | flags);
 }
 
 /// Opens a file to go on with. One that is a link, of either kind, gives way to a copy of its first bytes; a pipe is
@@ -78,6 +86,16 @@ int sync(int descriptor) {
   return 0;
 }
 
+/// Returns 0 or the error.
+int write_device(const fs::path& path, std::string_view bytes) {
+  const int descriptor = open_anew(path, 0);
+  if (descriptor < 0) return errno;
+  int error = write_all(descriptor, bytes);
+  if (error == 0) error = sync(descriptor);
+  if (::close(descriptor) != 0 && error == 0 && errno != EINTR) error = errno;
+  return error;
+}
+
 }  // namespace
 
 fs::path part_name(const fs::path& path) {
@@ -90,6 +108,7 @@ void finish_part(const fs::path& path) {
   const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   int error = descriptor < 0 ? errno : sync(descriptor);
   if (descriptor >= 0) ::close(descriptor);
+  if (error == 0 && is_device(path)) error = EEXIST;  // it would be replaced by a file
   if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
   if (error == 0) return;
   ::unlink(temporary.c_str());
@@ -97,6 +116,10 @@ void finish_part(const fs::path& path) {
 }
 
 void write_whole(const fs::path& path, std::string_view bytes) {
+  if (is_device(path)) {
+    if (const int error = write_device(path, bytes)) throw failure("write", path, error);
+    return;
+  }
   const fs::path temporary = part_name(path);
   const int descriptor = open_anew(temporary, 0);
   if (descriptor < 0) throw failure("write", path, errno);
@@ -140,7 +163,16 @@ LineFile::LineFile(fs::path path, Keep keep)
 
 LineFile::~LineFile() { ::close(descriptor_); }
 
+/// What is appended to a file without a name is gone when the run ends, and no call would ever fail for that.
+void LineFile::refuse_if_removed() const {
+  struct stat now {};
+  if (::fstat(descriptor_, &now) != 0 || now.st_nlink > 0) return;
+  throw FileError(fmt::format("{} has been removed while it was written", path_.string()),
+                  std::error_code(ENOENT, std::generic_category()));
+}
+
 void LineFile::append(std::string_view line) {
+  refuse_if_removed();
   struct stat before {};
   const bool known = ::fstat(descriptor_, &before) == 0;
   if (const int error = write_all(descriptor_, line)) {
@@ -152,6 +184,7 @@ void LineFile::append(std::string_view line) {
 }
 
 void LineFile::sync() const {
+  refuse_if_removed();
   if (const int error = sessile::sync(descriptor_)) throw failure("write", path_, error);
 }
 

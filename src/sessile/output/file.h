@@ -7,7 +7,7 @@
 namespace sessile {
 
 /// Writes a file whole or not at all: under a temporary name in the same folder, then synced and renamed over `path`.
-/// A link of either name is replaced, never followed.
+/// A link of either name is replaced, never followed; a device is written as it is, without a temporary file.
 /// Throws FileError with the path and the system's reason; the old file, if any, then stays and nothing else is left.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 
@@ -15,7 +15,7 @@ void write_whole(const std::filesystem::path& path, std::string_view bytes);
 std::filesystem::path part_name(const std::filesystem::path& path);
 
 /// Syncs what has been written under a file's part name, and gives it the file's own.
-/// Throws FileError; then nothing of it is left.
+/// Throws FileError, also where a device has that name; then nothing of it is left.
 void finish_part(const std::filesystem::path& path);
 
 /// Makes the folder, and those above it, if they are missing.
@@ -42,14 +42,17 @@ class LineFile {
   LineFile& operator=(const LineFile&) = delete;
 
   /// Hands one line, which ends in a newline, to the system in one piece.
-  /// Throws FileError when it could not be written in full; the part that was is taken back.
+  /// Throws FileError when it could not be written in full, the part that was is taken back, and when the file has been
+  /// removed meanwhile.
   void append(std::string_view line);
 
-  /// Asks the disk to keep what has been appended. Throws FileError.
+  /// Asks the disk to keep what has been appended. Throws FileError, also when the file has been removed.
   void sync() const;
   std::uint64_t size() const { return size_; }  ///< [bytes]
 
  private:
+  void refuse_if_removed() const;
+
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;

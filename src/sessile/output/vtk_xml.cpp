@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
-
-#include "sessile/core/error.h"
+#include <new>
 
 namespace sessile {
 namespace {
@@ -42,7 +41,7 @@ void append_array(std::string& to, std::string_view bytes) {
     packed.resize(old_size + size);
     if (compress2(reinterpret_cast<Bytef*>(packed.data() + old_size), &size,
                   reinterpret_cast<const Bytef*>(block.data()), block.size(), compression_level) != Z_OK) {
-      throw Error("zlib could not compress a frame: out of memory");
+      throw std::bad_alloc();  // what else can go wrong, too little room for the bytes, compressBound rules out
     }
     packed.resize(old_size + size);
     head.push_back(size);

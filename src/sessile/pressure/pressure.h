@@ -23,4 +23,13 @@ static_assert(PressureModel<Iisph> && PressureModel<Pcisph> && PressureModel<Wcs
 /// Every pressure solver a scene can name under "pressure".
 using Pressure = std::variant<Iisph, Pcisph, Wcsph, Dfsph>;
 
+/// Whether it turns until an average compression is reached. WCSPH does not: its speed of sound allows what it allows.
+inline bool promises_density(const Pressure& method) {
+  return std::visit(
+      [](const auto& solver) {
+        return requires { solver.error; };
+      },
+      method);
+}
+
 }  // namespace sessile

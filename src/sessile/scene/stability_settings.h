@@ -30,8 +30,8 @@ struct StabilitySettings {
   bool density = true;
   double density_limit = 0.01;
   int density_steps = 100;
-  bool escapes = false;
-  bool passages = false;
+  bool escapes = true;
+  bool passages = true;
 
   static constexpr auto fields() {
     using T = StabilitySettings;
@@ -52,7 +52,9 @@ struct StabilitySettings {
               "support radii that a step may throw a particle off the way of its velocity"),
         field(&T::density, "density", "whether it is a fault that the liquid stays compressed beyond density_limit"),
         field(&T::density_limit, "density_limit", "", positive,
-              "average compression that counts, when solves in a row end above their error without getting better"),
+              "average compression that counts, when solves in a row end above their error without getting better; "
+              "five times "
+              "it of solves that say they reached it"),
         field(&T::density_steps, "density_steps", "", at_least(2), "so many steps in a row"),
         field(&T::escapes, "escapes",
               "whether it is a fault that a particle passes through a container or a closed face of the domain; else a "
