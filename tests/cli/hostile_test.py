@@ -1,7 +1,10 @@
 """Scenes, files and folders that mean harm, as a user meets them."""
+import base64
 import json
 import os
+import struct
 import unittest
+import zlib
 
 from sessile_cli import BAD_INPUT, FAILED, CliTest, tiny
 
@@ -188,6 +191,53 @@ class OddResults(CliTest):
         (self.folder / "out/scene.json").unlink()
         _, err = self.call("mesh", "out", "-o", "again", code=FAILED, before="ulimit -v 600000")
         self.assertIn("summary.json: it holds no scene", err)
+
+
+class HungryFiles(CliTest):
+    """Files that take more memory than their bytes tell, in less of it than they would take."""
+
+    def setUp(self):
+        super().setUp()
+        self.write(tiny())
+        self.call("run", "s.json", "-o", "out", "--progress", "none")
+
+    def test_a_frame_that_unpacks_to_much(self):
+        blocks, block = 300, 1 << 20
+        packed = zlib.compress(bytes(block), 9)
+        head = struct.pack("<QQQ", blocks, block, 0) + struct.pack("<Q", len(packed)) * blocks
+        data = base64.b64encode(head) + base64.b64encode(packed * blocks)
+        frame = self.folder / "out/frame_000000.vtp"
+        text = frame.read_bytes()
+        array = (b'<PolyData><FieldData><DataArray type="Float64" Name="TimeValue" format="ascii">0</DataArray><DataArray '
+                 b'type="Int64" Name="Step" format="ascii">0</DataArray></FieldData><Piece NumberOfPoints="%d"><PointData/>'
+                 b'<Points><DataArray type="Float32" Name="P" NumberOfComponents="3" format="appended" offset="0"/></Points>'
+                 b'</Piece></PolyData><AppendedData encoding="base64">_' % (blocks * block // 12))
+        frame.write_bytes(text[:text.index(b"<PolyData>")] + array + data + b"</AppendedData></VTKFile>")
+        _, err = self.call("mesh", "out", "--frames", "0", code=FAILED, before="ulimit -v 2000000")
+        self.assertIn("frame_000000.vtp: it unpacks to more than there is memory for", err)
+
+    def test_names_of_fields_do_not_steer_the_terminal(self):
+        frame = self.folder / "out/frame_000000.ply"
+        for path in (self.folder / "out").glob("*.vtp"):
+            path.unlink()
+        frame.write_bytes(frame.read_bytes().replace(b"float density", b"float \x1b[2J\x07ity"))
+        _, err = self.call("picture", "out", "--time", "0", "--field", "nope nope", "-o", "p.png", code=BAD_INPUT)
+        if "no field" not in err:
+            self.skipTest("nothing can be drawn here: " + err)
+        self.assertIn("?[2J?ity", err)
+        self.assertNotIn("\x1b", err)
+
+    def test_solids_with_fine_samples(self):
+        plate = {"label": "plate", "spacing": 0.0051, "shape": {"type": "plate", "width": 1.5, "depth": 1.5}}
+        self.write(tiny(solids=[plate]))
+        self.call("check", "s.json", before="ulimit -v 1000000", timeout=120)
+
+    def test_bodies_at_one_place(self):
+        body = {"shape": {"type": "sphere", "radius": 0.2}, "placement": {"position": [0, 0, 0.5]}}
+        self.write(tiny(bodies=[body] * 3000))
+        _, err = self.call("check", "s.json", code=BAD_INPUT, before="ulimit -v 1000000", timeout=120)
+        self.assertIn("bodies[0] and bodies[1] overlap", err)
+        self.assertIn("more than 100 such faults", err)
 
 
 class HugeCounts(CliTest):

@@ -5,6 +5,7 @@
 
 #include "sessile/core/error.h"
 #include "sessile/core/lanes.h"
+#include "sessile/kernels/cubic_spline.h"
 #include "sessile/neighbors/neighbors.h"
 #include "sessile/simulation.h"
 #include "sessile/surface/reconstruct.h"
@@ -36,7 +37,7 @@ Array3 sorted_cloud(std::size_t n, Grid& grid, const GridShape& shape) {
 }
 
 TEST(Crowding, PartsHaveTheListsOfTheWhole) {
-  constexpr double radius = 0.3;
+  constexpr Real radius = 0.25;  // float holds it
   Grid grid;
   const Array3 points = sorted_cloud(3000, grid, GridShape::make(radius, {}, {}));
   const SortedPoints all{points, grid};
@@ -70,12 +71,35 @@ TEST(Crowding, PartsAreWholeGroupsAndAllOfThem) {
   EXPECT_GT(parts_of(100'000, 5000).size(), 100U);
 }
 
+TEST(Crowding, FineSamplesOfSolidsHaveTheirPsi) {
+  Scene scene = test::block(2);
+  scene.bodies[0].placement.position = {0, 0, 1};
+  Solid plate;
+  plate.shape = Plate{0.3, 0.3};
+  plate.spacing = 0.006;
+  scene.solids = {plate};
+  const Simulation simulation(scene);
+  const Walls& walls = simulation.walls();
+  const std::size_t n = walls.size();
+  Grid grid;
+  grid.build(walls.position, GridShape::make(scene.support_radius(), {}, {}));
+  ASSERT_GT(parts_of(n, grid.fullest_cell()).size(), 1U) << "or parts would not be tested";
+  const CubicSpline W(scene.support_radius(), scene.spacing);
+  for (std::size_t k = 0; k < n; k += 7) {
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j)
+      sum += static_cast<double>(W.value(length(walls.position[k] - walls.position[j])));
+    ASSERT_NEAR(static_cast<double>(walls.psi[k]) * sum, 1, 1e-4) << k;
+  }
+}
+
 /// Half a million pairs of bodies: a hundred are named.
 TEST(Crowding, BodiesAtOnePlaceAreRefusedAtOnce) {
   Scene scene = test::block(3);
   scene.bodies.assign(1000, scene.bodies[0]);
   const std::string told = message_of([&] { const Simulation simulation(scene); });
-  EXPECT_NE(told.find("bodies[0] and bodies[1] overlap"), std::string::npos) << told.substr(0, 1000);
+  EXPECT_NE(told.find("bodies[0] \"block\" and bodies[1] \"block\" overlap"), std::string::npos)
+      << told.substr(0, 1000);
   EXPECT_NE(told.find("more than 100 such faults"), std::string::npos);
   EXPECT_LT(told.size(), 10'000U);
 }
