@@ -68,12 +68,15 @@ Outcome run_with(int threads, const Scene& scene, unsigned seed) {
       if (std::getenv("SESSILE_SEEDS_TALK") != nullptr) {
         const Totals& t = simulation.totals();
         fmt::print(
-            "seed {} {} n {} dx {:.2g} momentum {:.2g} energy {:.2g} move {:.2g} work {:.2g} density {:.2g} lost {} "
+            "seed {} {} n {} dx {:.2g} momentum {:.2g} energy {:.2g} move {:.2g} push {:.2g} over {:.2g} pull {:.2g} "
+            "viscous "
+            "{:.2g} density {:.2g} lost {} "
             "unconverged {}/{} out {} emitted {} threads {}\n",
             seed, std::visit([](const auto& solver) { return solver.name; }, scene.pressure),
             simulation.particles().size(), scene.spacing, ledger.worst_momentum(), ledger.worst_energy(),
-            ledger.worst_move(), ledger.worst_work(), ledger.worst_density(), t.lost, t.unconverged_solves, t.solves,
-            t.out, t.emitted, threads);
+            ledger.worst_move(), ledger.energy_bounds().worst_push(), ledger.energy_bounds().worst_overshoot(),
+            ledger.energy_bounds().worst_pull(), ledger.energy_bounds().worst_viscosity(), ledger.worst_density(),
+            t.lost, t.unconverged_solves, t.solves, t.out, t.emitted, threads);
       }
     } catch (const Error& e) {
       outcome.faults.push_back(e.what());
