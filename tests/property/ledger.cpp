@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sessile::test {
 namespace {
@@ -63,6 +64,7 @@ Vec3d total_force(const Walls& walls) {
 
 Ledger::Ledger(Simulation& simulation)
     : simulation_(simulation),
+      bounds_(simulation),
       started_(simulation.particles().size() - static_cast<std::size_t>(simulation.totals().emitted)) {
   energy_scale_ = simulation.totals().energy.start + simulation.totals().energy.emitted;
 }
@@ -106,11 +108,13 @@ Ledger::Before Ledger::look() const {
 
 void Ledger::step() {
   const Before before = look();
+  bounds_.look(before.acceleration, pair_acceleration(simulation_.scene(), simulation_.units()));
   simulation_.step();
   check_numbers();
   check_counts(before);
   check_motion(before);
   check_compression(before);
+  for (std::string& each : bounds_.check()) fault(std::move(each));
 }
 
 void Ledger::check_numbers() {
@@ -197,8 +201,6 @@ void Ledger::check_motion(const Before& before) {
   // Bounded: whatever the forces and pressures, no velocity is worth more than a support radius a step.
   const double most = units.support_radius / dx;
   if (!(worst_move_ <= most)) fault(fmt::format("a particle moves by {:g} dx in a step of {:g} s", worst_move_, dt));
-  const double had = now.energy.start + now.energy.emitted + std::max(0.0, now.energy.forces);
-  worst_work_ = std::max(worst_work_, now.energy.pressure / had);
 }
 
 void Ledger::check_compression(const Before& before) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "property/energy_bounds.h"
 #include "sessile/simulation.h"
 
 namespace sessile::test {
@@ -23,8 +24,8 @@ class Ledger {
   /// The greatest share of its tolerance that momentum, and energy, have come to: figures for the docs.
   double worst_momentum() const { return worst_momentum_; }
   double worst_energy() const { return worst_energy_; }
-  double worst_move() const { return worst_move_; }        ///< greatest way of a particle in a step [dx]
-  double worst_work() const { return worst_work_; }        ///< energy that pressure gave, over what the account had
+  double worst_move() const { return worst_move_; }  ///< greatest way of a particle in a step [dx]
+  const EnergyBounds& energy_bounds() const { return bounds_; }
   double worst_density() const { return worst_density_; }  ///< average compression over rest density after a step
 
  private:
@@ -44,9 +45,10 @@ class Ledger {
   void fault(std::string sentence);
 
   Simulation& simulation_;
+  EnergyBounds bounds_;
   std::size_t started_;  // particles at the start, the first layers not among them
   double energy_scale_ = 0;
-  double worst_momentum_ = 0, worst_energy_ = 0, worst_move_ = 0, worst_work_ = 0, worst_density_ = 0;
+  double worst_momentum_ = 0, worst_energy_ = 0, worst_move_ = 0, worst_density_ = 0;
   std::vector<std::string> faults_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "property/dice.h"
 #include "sessile/core/units.h"
+#include "sessile/scene/sampling.h"
 
 namespace sessile::test {
 namespace {
@@ -19,7 +20,7 @@ std::variant<T...> member(const std::variant<T...>&, int index) {
 
 class SceneMaker {
  public:
-  explicit SceneMaker(unsigned seed) : dice_(seed) {}
+  explicit SceneMaker(unsigned seed) : dice_(seed), large_(seed % 3 == 1) {}
 
   Scene make() {
     scale();
@@ -100,8 +101,9 @@ class SceneMaker {
     double top = 0;
     for (int k = 0; k < count; ++k) {
       Body body;
-      const double radius = dx_ * dice_.magnitude(2, count == 1 ? 8 : 6);
+      double radius = dx_ * dice_.magnitude(2, count == 1 ? 8 : 6);
       body.shape = shape(radius);
+      if (large_) radius *= enlarge(body, dice_.magnitude(1200, 3000) / count);
       if (dice_.chance(0.5)) body.placement.axis = dice_.direction();
       if (dice_.chance(0.5)) body.placement.angle = dice_.uniform(-180, 180);
       if (k > 0) top += radius + dx_ * dice_.uniform(0.8, 2);
@@ -136,6 +138,20 @@ class SceneMaker {
       default:
         return Mesh{SESSILE_SOURCE_DIR "/tests/property/octahedron.obj", radius};
     }
+  }
+
+  /// Makes a body as large as it takes to hold so many particles; the factor on its lengths.
+  double enlarge(Body& body, double particles) const {
+    const double factor = std::cbrt(particles / estimate_fill(body, dx_));
+    struct Scale {
+      double factor;
+      void operator()(Box& box) const { box.size = factor * box.size; }
+      void operator()(Sphere& sphere) const { sphere.radius *= factor; }
+      void operator()(Cylinder& cylinder) const { cylinder.radius *= factor, cylinder.height *= factor; }
+      void operator()(Mesh& mesh) const { mesh.scale *= factor; }
+    };
+    std::visit(Scale{factor}, body.shape);
+    return factor;
   }
 
   void surroundings() {
@@ -250,6 +266,7 @@ class SceneMaker {
   }
 
   Dice dice_;
+  bool large_;  // whether loops over particles have several blocks
   Scene scene_;
   double dx_ = 0;
   double speed_ = 0;  // what velocities of the scene are measured in [m/s]
