@@ -11,7 +11,8 @@ shift || true
 targets=("$@")
 build=${FUZZ_BUILD:-build/asan}
 if [ ${#targets[@]} = 0 ]; then
-  targets=(scene overrides method mesh_obj mesh_stl mesh_ply frame_ply frame_vtp results checkpoint checkpoint_file)
+  targets=(scene overrides method mesh_obj mesh_stl mesh_ply frame_ply frame_vtp results checkpoint checkpoint_file
+           session surface_index usda usda_parts verdict)
 fi
 
 if [ "$build" = build/asan ]; then

@@ -22,12 +22,7 @@ double points_of(const Scene& scene) {
   return points;
 }
 
-}  // namespace
-
-void run_when_small(const Scene& scene) {
-  const double points = points_of(scene);
-  if (points > small && points < 2.2e9) return;  // what is larger must be refused at once
-  Scene short_solves = scene;
+Scene with_short_solves(Scene scene) {
   std::visit(
       [](auto& solver) {
         if constexpr (requires { solver.max_iterations; }) {
@@ -36,11 +31,26 @@ void run_when_small(const Scene& scene) {
           solver.long_solve = 3;
         }
       },
-      short_solves.pressure);
-  Simulation simulation(short_solves);
+      scene.pressure);
+  return scene;
+}
+
+}  // namespace
+
+void run_when_small(const Scene& scene) {
+  const double points = points_of(scene);
+  if (points > small && points < 2.2e9) return;  // what is larger must be refused at once
+  Simulation simulation(with_short_solves(scene));
   must(static_cast<double>(simulation.particles().size() + simulation.walls().size()) <= 2 * small,
        "more points than were estimated");
   simulation.step();
+}
+
+void go_on_when_small(const Scene& scene, const SimulationState& state) {
+  if (points_of(scene) > small || static_cast<double>(state.particles.size()) > small) return;
+  Simulation simulation(with_short_solves(scene), state);
+  must(simulation.particles().size() == state.particles.size(), "a state comes back with other particles");
+  for (int k = 0; k < 2; ++k) simulation.step();
 }
 
 }  // namespace sessile::fuzz

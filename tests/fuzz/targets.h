@@ -18,13 +18,18 @@ void read_frame_vtp(std::string_view bytes);
 void read_results(std::string_view bytes);     ///< as scene.json, summary.json and frames.pvd of a folder
 void read_checkpoint(std::string_view bytes);  ///< the content of a checkpoint, not compressed, behind a right checksum
 void read_checkpoint_file(std::string_view bytes);
+void read_session(std::string_view bytes);  ///< the JSON that a checkpoint holds of the program
+void read_surface_index(std::string_view bytes);
+void read_usda(std::string_view bytes);        ///< a surface over time that a writer goes on with
+void read_usda_parts(std::string_view bytes);  ///< the files that one left when it was killed, between lines of "----"
+void read_verdict(std::string_view bytes);
 
 struct Target {
   std::string_view name;  ///< of its folders below corpus/ and regressions/
   void (*read)(std::string_view bytes);
 };
 
-inline constexpr std::array<Target, 11> targets{{{"scene", read_scene_json},
+inline constexpr std::array<Target, 16> targets{{{"scene", read_scene_json},
                                                  {"overrides", read_overrides},
                                                  {"method", read_method_json},
                                                  {"mesh_obj", read_mesh_obj},
@@ -34,7 +39,12 @@ inline constexpr std::array<Target, 11> targets{{{"scene", read_scene_json},
                                                  {"frame_vtp", read_frame_vtp},
                                                  {"results", read_results},
                                                  {"checkpoint", read_checkpoint},
-                                                 {"checkpoint_file", read_checkpoint_file}}};
+                                                 {"checkpoint_file", read_checkpoint_file},
+                                                 {"session", read_session},
+                                                 {"surface_index", read_surface_index},
+                                                 {"usda", read_usda},
+                                                 {"usda_parts", read_usda_parts},
+                                                 {"verdict", read_verdict}}};
 
 /// Calls the reader; errors that it may throw are well.
 void survive(void (*read)(std::string_view), std::string_view bytes);
