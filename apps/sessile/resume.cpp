@@ -84,6 +84,17 @@ SessionState session_in(const FoundCheckpoint& found) {
   }
 }
 
+/// What is wrong with a state is wrong with its file.
+Simulation restored(Scene scene, SimulationState state, const std::string& file) {
+  try {
+    return {std::move(scene), std::move(state)};
+  } catch (const SceneError& e) {
+    std::vector<std::string> faults;
+    for (const std::string& message : e.messages) faults.push_back(file + ": " + message);
+    throw SceneError(std::move(faults));
+  }
+}
+
 }  // namespace
 
 Resumable open_run(const ResumeOptions& options) {
@@ -111,7 +122,7 @@ Resumable open_run(const ResumeOptions& options) {
   refuse_changes(before, wanted, checkpoint.state);
   const bool changed = !differing_parameters(before, wanted).empty();
   SessionState session = session_in(found);
-  Simulation simulation(std::move(before), std::move(checkpoint.state));
+  Simulation simulation = restored(std::move(before), std::move(checkpoint.state), file);
   simulation.retune(wanted);
   return {std::move(simulation), std::move(session), changed, std::move(notes)};
 }
@@ -136,10 +147,11 @@ void require_results(const std::filesystem::path& results, const Resumable& run)
   refuse_if_in_use(results / fault_folder_name);
   const auto stats = results / "stats.csv";
   std::error_code error;
-  if (const auto size = std::filesystem::file_size(stats, error); error || size < run.before.stats_bytes) {
-    throw FileError(fmt::format("cannot go on with {}: {}", stats.string(),
-                                error ? error.message() : "it is shorter than it was at the checkpoint"));
-  }
+  const auto size = std::filesystem::file_size(stats, error);
+  std::string fault;
+  if (error) fault = std::filesystem::exists(stats) ? "it is no file" : error.message();
+  if (!error && size < run.before.stats_bytes) fault = "it is shorter than it was at the checkpoint";
+  if (!fault.empty()) throw FileError(fmt::format("cannot go on with {}: {}", stats.string(), fault));
   require_surfaces(results, run.simulation.scene(), run.before.surface_times);
 }
 

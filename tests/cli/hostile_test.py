@@ -114,7 +114,7 @@ class ResumedInto(CliTest):
         self.stats.unlink()
         os.mkfifo(self.stats)
         _, err = self.resume(code=FAILED)
-        self.assertIn("cannot go on with out/stats.csv: No such device or address", err)
+        self.assertIn("cannot go on with out/stats.csv: it is no file", err)
 
     def test_odd_summaries_and_lists_of_surfaces(self):
         summary, surfaces = self.folder / "out/summary.json", self.folder / "out/surface"
