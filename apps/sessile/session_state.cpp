@@ -62,7 +62,7 @@ std::string session_json(const SessionState& state) {
   return object.text() + "\n";
 }
 
-SessionState session_of(const std::string& json) {
+SessionState session_of(const std::string& json, std::int64_t steps) {
   constexpr std::size_t most_values = 4'000'000;  // a million times of frames and of surfaces, and room
   const auto parsed = parsed_json(json, most_values);
   if (!parsed || !parsed->isObject()) throw Error("does not say what had been written");
@@ -82,6 +82,7 @@ SessionState session_of(const std::string& json) {
   } catch (const Json::Exception&) {
     throw Error("does not say what had been written");
   }
+  if (static_cast<std::int64_t>(state.frame_times.size()) - 1 > steps) throw Error("tells of more frames than steps");
   return state;
 }
 

@@ -24,10 +24,13 @@ struct SessionState {
   StabilityState stability{};
 };
 
+inline constexpr std::int64_t most_steps = std::int64_t{1} << 62;
+
 /// As JSON, numbers exact.
 std::string session_json(const SessionState& state);
 
-/// Throws Error for what is no such JSON.
-SessionState session_of(const std::string& json);
+/// Throws Error for what is no such JSON, and for one with more frames than `steps` can have made: one at the start,
+/// and one after each.
+SessionState session_of(const std::string& json, std::int64_t steps = most_steps);
 
 }  // namespace sessile::app

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "schedule.h"
 #include "sessile/checkpoint/checkpoint.h"
 #include "sessile/core/error.h"
@@ -50,6 +52,16 @@ TEST(SessionState, RefusesOtherText) {
   const std::string deep(3000, '[');
   for (const char* text : {"", "{", deep.c_str(), "[1]", "3", R"({"frame_times": ["x"]})", R"({"stats_bytes": -1})"}) {
     EXPECT_THROW(session_of(text), Error) << text;
+  }
+}
+
+TEST(SessionState, HasNoMoreFramesThanSteps) {
+  SessionState state;
+  state.frame_times = {0, 1, 2, 3};
+  EXPECT_EQ(session_of(session_json(state), 3).frame_times.size(), 4U);
+  for (const std::int64_t steps :
+       {std::int64_t{2}, std::int64_t{0}, std::int64_t{-1}, std::numeric_limits<std::int64_t>::min()}) {
+    EXPECT_THROW(session_of(session_json(state), steps), Error) << steps;
   }
 }
 

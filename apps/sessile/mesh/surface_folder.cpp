@@ -87,8 +87,8 @@ std::vector<SurfaceEntry> frames_with(const fs::path& folder, const SurfaceIndex
   if (good) return frames;
   throw FileError(
       fmt::format("{}: the {} surfaces that the run had made are not there any more, or others are: put them back, or "
-                  "go on without "
-                  "surfaces, with `--set output.surface.formats=[]`, and make them of the frames with `sessile mesh`",
+                  "go on without surfaces, with `--set output.surface.formats=[]`, and make them of the frames with "
+                  "`sessile mesh`",
                   folder.string(), times.size()));
 }
 
