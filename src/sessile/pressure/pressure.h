@@ -27,7 +27,11 @@ using Pressure = std::variant<Iisph, Pcisph, Wcsph, Dfsph>;
 inline bool promises_density(const Pressure& method) {
   return std::visit(
       [](const auto& solver) {
-        return requires { solver.error; };
+        if constexpr (requires { solver.error; }) {
+          return true;
+        } else {
+          return false;
+        }
       },
       method);
 }
