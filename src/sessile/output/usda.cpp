@@ -92,7 +92,7 @@ void copy(const std::filesystem::path& from, LineFile& to) {
   std::ifstream in = stream_of(from);
   std::string first;
   std::getline(in, first);
-  std::vector<char> block(std::size_t{1} << 20);
+  std::vector<char> block(std::size_t{1} << 16);
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
     to.append({block.data(), static_cast<std::size_t>(in.gcount())});
   }
