@@ -1,5 +1,6 @@
 """Runs that go back to a good state where a step goes wrong, and that particles add up in every line."""
 import json
+import time
 
 from frames import read_pvd, read_vtp
 from sessile_cli import FAILED, tiny, unittest
@@ -67,7 +68,7 @@ class GoesBack(Stability):
             self.call("run", scene, "-o", f"with{threads}", "--threads", threads, "--progress", "none")
         self.assert_same("with1", "with3")
 
-    def test_the_same_when_it_was_interrupted(self):
+    def test_the_same_when_it_had_ended_earlier(self):
         scene = self.write(thrown(stability={"on_fault": "go_back", "keep_interval": 0.06}))
         self.call("run", scene, "-o", "whole", "--progress", "none")
         for until in (0.02, 0.1, 0.16, 0.22, 0.28):
@@ -75,6 +76,29 @@ class GoesBack(Stability):
             self.call("run", scene, "-o", folder, "--until", until, "--progress", "none")
             self.call("run", "--resume", folder, "--until", 0.3, "--progress", "none")
             self.assert_same("whole", folder)
+
+    def test_the_same_when_it_was_killed(self):
+        """Each time it is killed while a checkpoint gets its name, one later than before."""
+        scene = thrown(stability={"on_fault": "go_back", "keep_interval": 0.06})
+        scene["output"]["checkpoint"] = {"interval": 0.02}
+        self.write(scene)
+        self.call("run", "s.json", "-o", "whole", "--progress", "none")
+        went_on = 0
+        for after in range(1, 7):
+            held = self.folder / "held"
+            held.unlink(missing_ok=True)
+            run = self.start("run", *(["--resume", "out"] if went_on else ["s.json", "-o", "out"]), "--progress", "none",
+                             faults={"CALL": "rename", "PATH": "checkpoint_", "AFTER": after, "HOLD": held})
+            while run.poll() is None and not held.exists():
+                time.sleep(0.002)
+            if run.poll() is not None:
+                break  # it has come to its end
+            run.kill()
+            run.wait()
+            went_on += 1
+        self.assertGreaterEqual(went_on, 3)
+        self.call("run", "--resume", "out", "--progress", "none")
+        self.assert_same("whole", "out")
 
 
 class Counts(Stability):

@@ -109,6 +109,28 @@ class CliTest(unittest.TestCase):
     def summary(self, folder="out"):
         return json.loads((self.folder / folder / "summary.json").read_text())
 
+    def results(self, folder):
+        """What a run leaves behind, by name: bytes, but for times of the wall and memory. Without checkpoints."""
+        found = {}
+        for path in sorted((self.folder / folder).rglob("*")):
+            name = str(path.relative_to(self.folder / folder))
+            if path.is_dir() or name.startswith("checkpoints/") or path.name == ".sessile.lock":
+                continue
+            if name == "summary.json":
+                summary = json.loads(path.read_text())
+                for key in ("wall_time_s", "memory_bytes"):
+                    del summary[key]
+                found[name] = summary
+            else:
+                found[name] = path.read_bytes()
+        return found
+
+    def assert_same(self, folder, other):
+        first, second = self.results(folder), self.results(other)
+        self.assertEqual(sorted(first), sorted(second))
+        for name, content in first.items():
+            self.assertTrue(content == second[name], f"{name} differs in {other}")
+
     def names(self, folder="out"):
         return sorted(path.name for path in (self.folder / folder).iterdir())
 

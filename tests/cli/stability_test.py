@@ -32,28 +32,6 @@ class Stability(CliTest):
         with open(self.folder / folder / "stats.csv", newline="") as file:
             return list(csv.DictReader(file))
 
-    def results(self, folder):
-        """All files but what tells of wall time and memory, and checkpoints."""
-        found = {}
-        for path in sorted((self.folder / folder).rglob("*")):
-            name = str(path.relative_to(self.folder / folder))
-            if path.is_dir() or name.startswith("checkpoints/") or "lock" in name:
-                continue
-            if name == "summary.json":
-                summary = json.loads(path.read_text())
-                for key in ("wall_time_s", "memory_bytes"):
-                    del summary[key]
-                found[name] = summary
-            else:
-                found[name] = path.read_bytes()
-        return found
-
-    def assert_same(self, first, second):
-        a, b = self.results(first), self.results(second)
-        self.assertEqual(sorted(a), sorted(b))
-        for name, content in a.items():
-            self.assertTrue(content == b[name], f"{name} differs between {first} and {second}")
-
     def expect_dump(self, folder="out/fault"):
         """A folder of results with two frames, which the program opens. Returns fault.json."""
         self.assertEqual(self.names(folder), ["checkpoints", "fault.json", "frame_000000.vtp", "frame_000001.vtp",
