@@ -85,7 +85,7 @@ Simulation restored(Scene scene, SimulationState state, const std::string& file)
     return {std::move(scene), std::move(state)};
   } catch (const SceneError& e) {
     std::vector<std::string> faults;
-    for (const std::string& message : e.messages) faults.push_back(file + ": " + message);
+    for (const std::string& message : e.messages) faults.push_back(fmt::format("{}: {}", file, message));
     throw SceneError(std::move(faults));
   }
 }

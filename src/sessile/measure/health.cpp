@@ -215,7 +215,7 @@ std::string advice(const RunFault& fault, const StabilitySettings& settings) {
 }
 
 std::string way_on(const RunFault& fault) {
-  if (const std::string warned = warning_only(fault); !warned.empty()) return warned;
+  if (std::string warned = warning_only(fault); !warned.empty()) return warned;
   const std::string_view key = fault.bound == "fixed" ? "fixed_dt" : fault.bound == "dt_min" ? "dt_min" : "dt_max";
   return fmt::format("time.{}={:.3g}", key, fault.dt / 2);
 }
