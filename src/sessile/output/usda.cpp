@@ -1,11 +1,8 @@
 #include "sessile/output/usda.h"
 
-#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -17,75 +14,12 @@
 #include "sessile/core/error.h"
 #include "sessile/output/durable.h"
 #include "sessile/output/surfaces.h"
+#include "sessile/output/usda_text.h"
 #include "sessile/scene/input_file.h"
 
 namespace sessile {
+
 namespace {
-
-/// A word that USD takes as a name: letters, digits and '_', no digit in front.
-std::string identifier(std::string_view word) {
-  std::string name;
-  for (const char c : word) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  return name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0 ? "_" + name : name;
-}
-
-template <class T>
-std::string list_of(const std::vector<T>& values) {
-  std::string text = "[";
-  for (const T value : values) {
-    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}{}"), text.size() > 1 ? ", " : "", value);
-  }
-  return text + ']';
-}
-
-std::string vectors_of(const std::vector<float>& v) {
-  std::string text = "[";
-  for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
-    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}({}, {}, {})"), i > 0 ? ", " : "", v[i], v[i + 1],
-                   v[i + 2]);
-  }
-  return text + ']';
-}
-
-/// As many threes as there are triangles.
-std::string counts_of(const SurfaceMesh& mesh) {
-  std::string text = "[";
-  for (std::size_t i = 0; i < mesh.triangle_count(); ++i) text += i > 0 ? ", 3" : "3";
-  return text + ']';
-}
-
-std::string extent_of(const SurfaceMesh& mesh) {
-  if (mesh.points.empty()) return "[]";
-  std::vector<float> corners(mesh.points.begin(), mesh.points.begin() + 3);
-  corners.insert(corners.end(), corners.begin(), corners.begin() + 3);
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    corners[i % 3] = std::min(corners[i % 3], mesh.points[i]);
-    corners[3 + i % 3] = std::max(corners[3 + i % 3], mesh.points[i]);
-  }
-  return vectors_of(corners);
-}
-
-constexpr std::string_view mesh_traits =
-    "        uniform token subdivisionScheme = \"none\"\n        uniform token orientation = \"rightHanded\"\n";
-
-std::string solid_text(const std::string& name, const SurfaceMesh& mesh) {
-  return fmt::format(
-      "\n    def Mesh \"{}\"\n    {{\n{}        uniform bool doubleSided = 1\n        float3[] extent = {}\n"
-      "        point3f[] points = {}\n        int[] faceVertexCounts = {}\n        int[] faceVertexIndices = {}\n    "
-      "}}\n",
-      name, mesh_traits, extent_of(mesh), vectors_of(mesh.points), counts_of(mesh), list_of(mesh.triangles));
-}
-
-constexpr std::string_view sample_indent = "            ", points_name = "point3f[] points";
-
-/// The time code that a line's sample belongs to.
-std::optional<double> code_of(std::string_view line) {
-  if (!line.starts_with(sample_indent)) return {};
-  line.remove_prefix(sample_indent.size());
-  double code = 0;
-  const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), code);
-  return error == std::errc{} && rest != line.data() + line.size() && *rest == ':' ? std::optional(code) : std::nullopt;
-}
 
 /// Appends what a file holds after its first line.
 void copy(const std::filesystem::path& from, LineFile& to) {
@@ -186,7 +120,7 @@ UsdaWriter::Attribute& UsdaWriter::attribute(std::string_view type_and_name, std
 }
 
 void UsdaWriter::sample(std::string_view type_and_name, std::string_view brackets, const std::string& value) {
-  attribute(type_and_name, brackets).samples->append(fmt::format("{}{}: {},\n", sample_indent, code_, value));
+  attribute(type_and_name, brackets).samples->append(fmt::format("{}{}: {},\n", usda::sample_indent, code_, value));
 }
 
 /// Takes the samples up to a time code out of the finished file, back into files of their own. Returns how many frames
@@ -199,17 +133,18 @@ std::size_t UsdaWriter::take_from_file(double until) {
   std::size_t frames = 0;
   for (std::string line; std::getline(in, line);) {
     const std::string_view text(line);
-    if (text.starts_with(sample_indent) && current == nullptr) {
-      brackets = text.substr(sample_indent.size());
-    } else if (text.ends_with(opening)) {
-      const auto name = text.substr(indent.size(), text.size() - indent.size() - opening.size());
-      current = &attribute(name, std::exchange(brackets, ""));
-    } else if (!text.starts_with(sample_indent)) {
-      current = nullptr;
-    } else if (const auto code = code_of(text); code && *code <= until) {
+    if (text.starts_with(usda::sample_indent) && current == nullptr) {
+      brackets = text.substr(usda::sample_indent.size());
+    } else if (text.starts_with(usda::sample_indent)) {
+      const auto code = usda::code_of(text);
+      if (!code || *code > until) continue;
       current->samples->append(line + '\n');
-      if (current->name != points_name) continue;
+      if (current->name != usda::points_name) continue;
       if (frames++ == 0) first_code_ = *code;
+    } else {
+      const bool opens = text.starts_with(indent) && text.ends_with(opening);
+      const auto name = opens ? text.substr(indent.size(), text.size() - indent.size() - opening.size()) : "";
+      current = usda::is_type_and_name(name) ? &attribute(name, std::exchange(brackets, "")) : nullptr;
     }
   }
   return frames;
@@ -224,14 +159,16 @@ std::size_t UsdaWriter::take_from_parts(double until) {
     std::string line;
     if (!std::getline(in, line) || in.eof()) return frames;
     const auto bar = line.find('|');
-    if (bar == std::string::npos) return frames;
-    Attribute found{line.substr(bar + 1), line.substr(0, bar), part, nullptr};
+    const std::string name = line.substr(0, bar);
+    const bool is_new = std::none_of(attributes_.begin(), attributes_.end(), [&](auto& a) { return a.name == name; });
+    if (bar == std::string::npos || !usda::is_type_and_name(name) || !is_new) return frames;
+    Attribute found{line.substr(bar + 1), name, part, nullptr};
     std::uint64_t keep = line.size() + 1;
     while (std::getline(in, line) && !in.eof()) {
-      const auto code = code_of(line);
+      const auto code = usda::code_of(line);
       if (!code || *code > until) break;
       keep += line.size() + 1;
-      if (found.name != points_name) continue;
+      if (found.name != usda::points_name) continue;
       if (frames++ == 0) first_code_ = *code;
     }
     found.samples = std::make_unique<LineFile>(part, Keep{keep});
@@ -241,27 +178,27 @@ std::size_t UsdaWriter::take_from_parts(double until) {
 
 void UsdaWriter::column(const Column& column) {
   constexpr std::string_view of_vertices = "interpolation = \"vertex\"";
-  const std::string name = identifier(column.name);
+  const std::string name = usda::identifier(column.name);
   const auto* const floats = std::get_if<std::vector<float>>(&column.values);
   if (floats == nullptr) {
-    sample("int64[] primvars:" + name, of_vertices, list_of(std::get<std::vector<std::int64_t>>(column.values)));
+    sample("int64[] primvars:" + name, of_vertices, usda::list_of(std::get<std::vector<std::int64_t>>(column.values)));
   } else if (column.components == 1) {
-    sample("float[] primvars:" + name, of_vertices, list_of(*floats));
+    sample("float[] primvars:" + name, of_vertices, usda::list_of(*floats));
   } else if (column.name == "velocity") {
-    sample("vector3f[] velocities", "", vectors_of(*floats));
+    sample("vector3f[] velocities", "", usda::vectors_of(*floats));
   } else {
-    sample("vector3f[] primvars:" + name, of_vertices, vectors_of(*floats));
+    sample("vector3f[] primvars:" + name, of_vertices, usda::vectors_of(*floats));
   }
 }
 
 void UsdaWriter::add(const SurfaceMesh& mesh) {
   code_ = mesh.time * rate_;
   if (!std::exchange(any_, true)) first_code_ = code_;
-  sample("float3[] extent", "", extent_of(mesh));
-  sample("int[] faceVertexCounts", "", counts_of(mesh));
-  sample("int[] faceVertexIndices", "", list_of(mesh.triangles));
-  sample(points_name, "", vectors_of(mesh.points));
-  sample("normal3f[] normals", "interpolation = \"vertex\"", vectors_of(mesh.normals));
+  sample("float3[] extent", "", usda::extent_of(mesh));
+  sample("int[] faceVertexCounts", "", usda::counts_of(mesh));
+  sample("int[] faceVertexIndices", "", usda::list_of(mesh.triangles));
+  sample(usda::points_name, "", usda::vectors_of(mesh.points));
+  sample("normal3f[] normals", "interpolation = \"vertex\"", usda::vectors_of(mesh.normals));
   for (const Column& each : mesh.columns) column(each);
 }
 
@@ -272,7 +209,7 @@ void UsdaWriter::finish(const Vec3d& up, std::span<const SolidMesh> solids) {
         "#usda 1.0\n(\n    doc = \"A liquid's surface, by Sessile\"\n    defaultPrim = \"World\"\n    upAxis = \"{}\"\n"
         "    metersPerUnit = 1\n    timeCodesPerSecond = {}\n    framesPerSecond = {}\n    startTimeCode = {}\n"
         "    endTimeCode = {}\n)\n\ndef Xform \"World\"\n{{\n    def Mesh \"surface\"\n    {{\n{}",
-        std::abs(up.y) > std::abs(up.z) ? "Y" : "Z", rate_, rate_, first_code_, code_, mesh_traits));
+        std::abs(up.y) > std::abs(up.z) ? "Y" : "Z", rate_, rate_, first_code_, code_, usda::mesh_traits));
     for (const Attribute& each : attributes_) {
       // What stands in brackets belongs to the attribute, not to its samples.
       if (!each.declaration.empty()) {
@@ -285,9 +222,9 @@ void UsdaWriter::finish(const Vec3d& up, std::span<const SolidMesh> solids) {
     out.append("    }\n");
     std::set<std::string> names{"surface"};
     for (const SolidMesh& solid : solids) {
-      std::string name = identifier(solid.label);
+      std::string name = usda::identifier(solid.label);
       while (!names.insert(name).second) name += '_';
-      out.append(solid_text(name, as_surface(solid.mesh)));
+      out.append(usda::solid_text(name, as_surface(solid.mesh)));
     }
     out.append("}\n");
   }

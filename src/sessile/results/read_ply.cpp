@@ -37,7 +37,7 @@ struct Property {
   bool whole = false;
 };
 
-struct Header {
+struct PlyHeader {
   FrameMoment moment{};
   std::uint64_t count = 0;
   std::vector<Property> properties;
@@ -59,9 +59,9 @@ std::optional<FrameMoment> moment_of(std::string_view comment) {
   return comment.empty() && std::isfinite(moment.time) ? std::optional(moment) : std::nullopt;
 }
 
-Header parse_header(std::string_view bytes) {
+PlyHeader parse_header(std::string_view bytes) {
   const auto not_ours = [] { return FileError("it is a PLY file, but no frame that `sessile run` wrote"); };
-  Header header;
+  PlyHeader header;
   if (take_line(bytes) != "ply") throw FileError("it is no PLY file");
   if (take_line(bytes) != "format binary_little_endian 1.0") throw not_ours();
   const auto moment = moment_of(take_line(bytes));
@@ -140,7 +140,7 @@ std::optional<FrameMoment> ply_moment(std::string_view beginning) {
 }
 
 Snapshot parse_ply_frame(std::string_view bytes) {
-  const Header header = parse_header(bytes);
+  const PlyHeader header = parse_header(bytes);
   const auto& properties = header.properties;
   const std::size_t width = properties.size();
   const auto is = [&](std::size_t i, std::string_view name) {

@@ -15,9 +15,9 @@ struct Shares {
   std::size_t nearest = 0;
 };
 
-class Surroundings {
+class CarriersAround {
  public:
-  explicit Surroundings(const Cloud& cloud) : cloud_(cloud) {}
+  explicit CarriersAround(const Cloud& cloud) : cloud_(cloud) {}
 
   void find(const Vec3d& vertex, Shares& shares) {
     shares.of.clear();
@@ -76,7 +76,7 @@ std::vector<Column> carry_columns(const Snapshot& particles, const Cloud& cloud,
   }
   if (carried.empty()) return carried;
   for_each_block(mesh.vertex_count(), [&](std::ptrdiff_t, std::ptrdiff_t begin, std::ptrdiff_t end) {
-    Surroundings surroundings(cloud);
+    CarriersAround surroundings(cloud);
     Shares shares;
     for (auto vertex = static_cast<std::size_t>(begin); vertex < static_cast<std::size_t>(end); ++vertex) {
       const float* x = &mesh.points[3 * vertex];
