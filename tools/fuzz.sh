@@ -3,7 +3,8 @@
 # Builds the harnesses with the preset `asan`, starts them from tests/fuzz/corpus, tests/fuzz/regressions and scenes/, and
 # prints a line for each: executions, edges and features covered, inputs that are new. Ends with 1 after a crash, a leak,
 # an input that took over 10 s, or one that took over 2 GiB; the inputs are then below build/asan/fuzz/TARGET/findings.
-# Variables: FUZZ_JOBS at a time (2), FUZZ_BUILD the build folder, FUZZ_KEEP=1 goes on with inputs found earlier.
+# Variables: FUZZ_JOBS at a time (2), FUZZ_BUILD the build folder, FUZZ_KEEP=1 goes on with inputs found earlier,
+# FUZZ_SEED=N begins with the same inputs each time (without it, with others).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:-30}
@@ -39,7 +40,7 @@ fuzz() {
     scene | results) seeds+=(scenes) ;;
     method) seeds+=(scenes/methods) ;;
   esac
-  local words=(-max_len=16384)
+  local words=(-max_len=16384 "-seed=${FUZZ_SEED:-0}")
   [ ! -f "tests/fuzz/words/$name.txt" ] || words+=(-dict="tests/fuzz/words/$name.txt")
   "$build/tests/fuzz/fuzz_$name" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=2048 \
     -print_final_stats=1 -artifact_prefix="$place/findings/" "${words[@]}" "$place/found" "${seeds[@]}" \

@@ -45,9 +45,9 @@ step() {
   fi
 }
 
-# Compilations at a time: one a core, and no more than 1.5 GB of free memory each allows.
+# Compilations at a time: one a core, and no more than 1.8 GB of free memory each allows.
 jobs_at_once() {
-  awk -v cores="$(nproc)" '/^MemAvailable/ {n = int($2 / 1500000)} END {print n < 1 ? 1 : n < cores ? n : cores}' \
+  awk -v cores="$(nproc)" '/^MemAvailable/ {n = int($2 / 1800000)} END {print n < 1 ? 1 : n < cores ? n : cores}' \
     /proc/meminfo
 }
 

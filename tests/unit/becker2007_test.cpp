@@ -5,7 +5,7 @@
 
 #include "support/forces.h"
 
-namespace sessile {
+namespace sessile::becker2007_test {
 namespace {
 
 using test::acceleration;
@@ -49,4 +49,4 @@ TEST(Becker2007, TensionIsTheIntegralOverThePairs) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::becker2007_test

@@ -5,7 +5,7 @@
 
 #include "support/forces.h"
 
-namespace sessile {
+namespace sessile::csf_test {
 namespace {
 
 using test::acceleration;
@@ -77,4 +77,4 @@ TEST(Csf, PressesAFlatSurfaceToo) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::csf_test

@@ -4,7 +4,7 @@
 #include "support/cloud.h"
 #include "support/scenes.h"
 
-namespace sessile {
+namespace sessile::dfsph_test {
 namespace {
 
 constexpr double dt = 0.002;
@@ -99,4 +99,4 @@ TEST(Dfsph, StepsEndWithVelocitiesFreeOfDivergenceAndTheWallFeelsIt) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::dfsph_test

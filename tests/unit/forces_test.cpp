@@ -5,7 +5,7 @@
 #include "sessile/pressure/pressure_force.h"
 #include "support/cloud.h"
 
-namespace sessile {
+namespace sessile::forces_test {
 namespace {
 
 // 1e-6 in float, 1e-12 in double.
@@ -214,4 +214,4 @@ TEST(Passes, DensityAndNormalsInLanesAgreeWithOneLane) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::forces_test

@@ -5,7 +5,7 @@
 
 #include "support/forces.h"
 
-namespace sessile {
+namespace sessile::he2014_test {
 namespace {
 
 using test::acceleration;
@@ -159,4 +159,4 @@ TEST(He2014, GivesTheSolidTheOppositeForceAndTorque) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::he2014_test

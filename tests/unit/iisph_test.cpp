@@ -4,7 +4,7 @@
 #include "sessile/pressure/solve.h"
 #include "support/cloud.h"
 
-namespace sessile {
+namespace sessile::iisph_test {
 namespace {
 
 constexpr double dt = 0.002;
@@ -202,4 +202,4 @@ TEST(Iisph, ALonelyParticleHasNoPressure) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::iisph_test

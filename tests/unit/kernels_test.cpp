@@ -8,7 +8,7 @@
 #include "sessile/kernels/cohesion.h"
 #include "sessile/kernels/cubic_spline.h"
 
-namespace sessile {
+namespace sessile::kernels_test {
 namespace {
 
 constexpr double h = 0.2, dx = 0.1;
@@ -187,4 +187,4 @@ TEST(Kernels, StayInFloatsRangeAtOneMicrometre) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::kernels_test

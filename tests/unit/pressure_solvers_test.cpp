@@ -9,7 +9,7 @@
 #include "support/cloud.h"
 #include "support/scenes.h"
 
-namespace sessile {
+namespace sessile::pressure_solvers_test {
 namespace {
 
 constexpr double dt = 0.002;
@@ -226,4 +226,4 @@ TEST(Wcsph, RefusesASceneThatGivesNoSpeedOfSound) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::pressure_solvers_test

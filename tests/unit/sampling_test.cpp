@@ -12,7 +12,7 @@
 #include "sessile/core/error.h"
 #include "sessile/scene/read.h"
 
-namespace sessile::test {
+namespace sessile::test::of_sampling {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -285,4 +285,4 @@ TEST(DomainWalls, FaceInwards) {
 }
 
 }  // namespace
-}  // namespace sessile::test
+}  // namespace sessile::test::of_sampling

@@ -9,7 +9,7 @@
 
 #include "unit/scene_files.h"
 
-namespace sessile::test {
+namespace sessile::test::of_solid_mesh {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -111,4 +111,4 @@ TEST_F(SolidMeshFiles, ComeFromTheFile) {
 }
 
 }  // namespace
-}  // namespace sessile::test
+}  // namespace sessile::test::of_solid_mesh

@@ -8,7 +8,7 @@
 #include "sessile/surface/reconstruct.h"
 
 /// What every method owes; surface_reconstruct_test.cpp holds the default to more.
-namespace sessile {
+namespace sessile::surface_methods_test {
 namespace {
 
 constexpr double spacing = 0.1;
@@ -104,4 +104,4 @@ TEST(SurfaceMethods, SmoothingEvensOutAndKeepsTheVolume) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::surface_methods_test

@@ -11,7 +11,7 @@
 #include "sessile/core/error.h"
 #include "sessile/surface/manifold.h"
 
-namespace sessile {
+namespace sessile::surface_reconstruct_test {
 namespace {
 
 constexpr double spacing = 0.1;
@@ -187,4 +187,4 @@ TEST(SurfaceReconstruct, CarriesColumns) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::surface_reconstruct_test

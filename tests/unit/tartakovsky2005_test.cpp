@@ -5,7 +5,7 @@
 
 #include "support/forces.h"
 
-namespace sessile {
+namespace sessile::tartakovsky2005_test {
 namespace {
 
 using test::acceleration;
@@ -60,4 +60,4 @@ TEST(Tartakovsky2005, TensionIsTheIntegralOverThePairs) {
 }
 
 }  // namespace
-}  // namespace sessile
+}  // namespace sessile::tartakovsky2005_test

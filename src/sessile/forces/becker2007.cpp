@@ -8,7 +8,7 @@ namespace sessile {
 namespace {
 
 /// -(kappa/m_i) m_j x_ij W( max(r, dx) )
-struct TensionLaw {
+struct BeckerTensionLaw {
   StepView s;
   Real kappa;  // over dx^3 [1/s^2]
   Real dx;
@@ -33,7 +33,7 @@ double fifth_moment(double a) {
 
 void Becker2007::add_acceleration(const StepView& s, Array3& acceleration) const {
   const double dx = s.units.spacing;
-  add_sums(s, TensionLaw{s, static_cast<Real>(strength / (dx * dx * dx)), static_cast<Real>(dx)}, acceleration);
+  add_sums(s, BeckerTensionLaw{s, static_cast<Real>(strength / (dx * dx * dx)), static_cast<Real>(dx)}, acceleration);
 }
 
 double Becker2007::tension(const Units& units) const {

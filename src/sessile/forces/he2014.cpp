@@ -33,7 +33,7 @@ struct Steepness {
 };
 
 /// (1/rho_i) V_j ( (kappa/4) (|grad c_i|^2 + |grad c_j|^2) + p_air ) grad W_ij
-struct TensionLaw {
+struct HeTensionLaw {
   StepView s;
   Real kappa;  // kappa/(4 h^2 rho0) [m^2/s^2]
   Real air;    // p_air/rho0 [m^2/s^2]
@@ -80,7 +80,7 @@ void He2014::add_acceleration(const StepView& s, Array3& acceleration) const {
   const Array<Real> steepness = of_each(s, Steepness{s, static_cast<Real>(h), view(colour)});
   const AirLaw air = air_law(*this, s);
   const auto kappa = static_cast<Real>(strength / (4 * h * h * s.units.rest_density));
-  add_sums(s, TensionLaw{s, kappa, air.air, view(steepness)}, air, acceleration);
+  add_sums(s, HeTensionLaw{s, kappa, air.air, view(steepness)}, air, acceleration);
 }
 
 void He2014::add_reaction(const StepView& s, const Walls& walls, std::span<SolidForce> forces) const {

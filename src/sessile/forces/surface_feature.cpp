@@ -17,7 +17,7 @@ Vec3<T> pair_direction(Direction reading, const Separation<T>& pair) {
 /// -K_ij ( alpha m_j d(r) e_ij + beta (n_i - n_j) ), K_ij = 2 rho0^2/(rho_i^2 + rho_j^2)   (14, 18, 20, 21)
 /// With unequal masses the area term takes their mean over m_i, so that it stays antisymmetric. Coincident
 /// particles exert nothing on each other.
-struct TensionLaw {
+struct FeatureTensionLaw {
   StepView s;
   CohesionSpline cohesion;
   Real alpha_rho0;
@@ -37,7 +37,7 @@ struct TensionLaw {
 };
 
 /// -eta psi_b y(r) e_ib, times the solid's own factor   (22, 23)
-struct AdhesionLaw {
+struct FeatureAdhesionLaw {
   StepView s;
   AdhesionSpline adhesion;
   Real eta_rho0;
@@ -51,7 +51,7 @@ struct AdhesionLaw {
   }
 };
 
-AdhesionLaw adhesion_law(const SurfaceFeature& model, const StepView& s) {
+FeatureAdhesionLaw adhesion_law(const SurfaceFeature& model, const StepView& s) {
   return {s, AdhesionSpline(s.units.support_radius, s.units.spacing),
           static_cast<Real>(model.adhesion * s.units.rest_density), model.direction};
 }
@@ -61,9 +61,9 @@ AdhesionLaw adhesion_law(const SurfaceFeature& model, const StepView& s) {
 void SurfaceFeature::add_acceleration(const StepView& view, Array3& acceleration) const {
   StepView s = view;
   s.normal = s.paired(s.normal);
-  const TensionLaw tension_law{s, CohesionSpline(s.units.support_radius, s.units.spacing),
-                               static_cast<Real>(cohesion * s.units.rest_density), static_cast<Real>(area_minimisation),
-                               direction};
+  const FeatureTensionLaw tension_law{s, CohesionSpline(s.units.support_radius, s.units.spacing),
+                                      static_cast<Real>(cohesion * s.units.rest_density),
+                                      static_cast<Real>(area_minimisation), direction};
   add_sums(s, tension_law, adhesion_law(*this, s), acceleration);
 }
 

@@ -24,7 +24,7 @@ struct PairForce {
   }
 };
 
-struct TensionLaw {
+struct PairwiseTensionLaw {
   StepView s;
   Real strength;  // s/(rho0 dx^3) [m/s^2]
   PairForce force;
@@ -36,7 +36,7 @@ struct TensionLaw {
   }
 };
 
-struct AdhesionLaw {
+struct PairwiseAdhesionLaw {
   StepView s;
   Real strength;  // s_w/(rho0 dx^3) [m/s^2]
   PairForce force;
@@ -48,14 +48,14 @@ struct AdhesionLaw {
   }
 };
 
-AdhesionLaw adhesion_law(const Tartakovsky2005& model, const StepView& s) {
+PairwiseAdhesionLaw adhesion_law(const Tartakovsky2005& model, const StepView& s) {
   return {s, static_cast<Real>(model.adhesion / s.units.particle_mass()), PairForce(s)};
 }
 
 }  // namespace
 
 void Tartakovsky2005::add_acceleration(const StepView& s, Array3& acceleration) const {
-  const TensionLaw tension_law{s, static_cast<Real>(strength / s.units.particle_mass()), PairForce(s)};
+  const PairwiseTensionLaw tension_law{s, static_cast<Real>(strength / s.units.particle_mass()), PairForce(s)};
   add_sums(s, tension_law, adhesion_law(*this, s), acceleration);
 }
 

@@ -14,7 +14,7 @@
 namespace sessile {
 namespace {
 
-constexpr auto formats = std::to_array<SurfaceFormat>({
+constexpr auto all_surface_formats = std::to_array<SurfaceFormat>({
     {"ply", "binary PLY: Blender, MeshLab and most others", encode_surface_ply},
     {"obj", "Wavefront OBJ: shape and normals alone", encode_surface_obj},
     {"vtp", "VTK PolyData for ParaView, with a collection surface.pvd that carries the physical time",
@@ -27,11 +27,12 @@ bool has_normals(const SurfaceMesh& mesh) { return mesh.normals.size() == mesh.p
 
 }  // namespace
 
-std::span<const SurfaceFormat> surface_formats() { return formats; }
+std::span<const SurfaceFormat> surface_formats() { return all_surface_formats; }
 
 const SurfaceFormat* find_surface_format(std::string_view name) {
-  const auto found = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == name; });
-  return found == formats.end() ? nullptr : &*found;
+  const auto found = std::find_if(all_surface_formats.begin(), all_surface_formats.end(),
+                                  [&](const auto& f) { return f.name == name; });
+  return found == all_surface_formats.end() ? nullptr : &*found;
 }
 
 std::string surface_file_name(std::int64_t number, std::string_view format) {

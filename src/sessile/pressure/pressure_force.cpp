@@ -7,7 +7,7 @@
 namespace sessile {
 namespace {
 
-struct FluidLaw {
+struct PressureLaw {
   StepView s;
   View1 stress;  // p_i/rho_i^2
 
@@ -18,7 +18,7 @@ struct FluidLaw {
   }
 };
 
-struct WallLaw {
+struct WallPressureLaw {
   StepView s;
   View1 stress;
 
@@ -30,8 +30,8 @@ struct WallLaw {
 };
 
 struct PressureKernel {
-  FluidLaw fluid;
-  WallLaw wall;
+  PressureLaw fluid;
+  WallPressureLaw wall;
   Out3 a;
 
   template <ParticleIndex I>
@@ -54,7 +54,7 @@ void pressure_acceleration(const StepView& s, const Array<Real>& pressure, Array
 
 void add_pressure_reaction(const StepView& s, const Array<Real>& stress, const Walls& walls,
                            std::span<SolidForce> forces) {
-  add_reaction(s, walls, WallLaw{s, view(stress)}, forces);
+  add_reaction(s, walls, WallPressureLaw{s, view(stress)}, forces);
 }
 
 }  // namespace sessile

@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 2> formats{"vtp", "ply"};          // what can be read, the preferred first
-constexpr std::uintmax_t largest_collection = std::uintmax_t{128} << 20;  // a million frames take 70 MiB
+constexpr std::array<std::string_view, 2> readable_formats{"vtp", "ply"};  // what can be read, the preferred first
+constexpr std::uintmax_t largest_collection = std::uintmax_t{128} << 20;   // a million frames take 70 MiB
 constexpr std::uintmax_t largest_summary = std::uintmax_t{16} << 20;
 constexpr std::size_t head_bytes = 4096;  // enough for the time, which stands in front
 
@@ -134,7 +134,7 @@ Results open_results(const fs::path& folder) {
     throw FileError(fmt::format("cannot open the results in {}: {}", folder.string(), why));
   }
   Results results{folder, read_result_scene(folder), {}};
-  for (const std::string_view format : formats) {
+  for (const std::string_view format : readable_formats) {
     if (results.frames.empty()) results.frames = frames_in(folder, format);
   }
   if (results.frames.empty()) {

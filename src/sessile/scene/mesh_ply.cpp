@@ -57,9 +57,9 @@ struct Element {
 };
 
 /// Takes numbers off the body of a PLY file.
-class Body {
+class PlyBody {
  public:
-  Body(std::string_view bytes, Format format) : format_(format), bytes_(bytes), words_(bytes) {}
+  PlyBody(std::string_view bytes, Format format) : format_(format), bytes_(bytes), words_(bytes) {}
 
   double next(Number type) {
     if (format_ == Format::ascii) {
@@ -156,7 +156,7 @@ std::int64_t whole(double value) { return std::abs(value) < 1e15 ? static_cast<s
 
 TriangleSoup parse_ply(std::string_view bytes) {
   const Header header = parse_header(bytes);
-  Body body(header.body, header.format);
+  PlyBody body(header.body, header.format);
   TriangleSoup soup;
   Polygons faces;
   for (const auto& element : header.elements) {

@@ -18,7 +18,7 @@ namespace sessile {
 namespace {
 
 constexpr std::size_t deepest_level = 64;
-constexpr std::uintmax_t largest_file = std::uintmax_t{16} << 20;
+constexpr std::uintmax_t largest_scene = std::uintmax_t{16} << 20;
 constexpr std::size_t most_values = 2'000'000;  // each takes some hundred bytes once read
 constexpr std::size_t most_repeated = 100;      // that are told of
 
@@ -63,7 +63,7 @@ SceneText SceneText::from_file(const std::filesystem::path& file) {
   const auto cannot = [&](const std::string& why) { return SceneError(file.string() + ": cannot be read: " + why); };
   std::string text;
   try {
-    text = read_input(file, largest_file, Input::file_or_pipe);
+    text = read_input(file, largest_scene, Input::file_or_pipe);
   } catch (const FileError& fault) {
     throw cannot(fault.what());
   }

@@ -11,7 +11,7 @@
 namespace sessile {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::uint32_t corners_around = 96;  // of a round shape, whose outline then bends by less than 4 degrees
 
 using Triangle = std::array<std::uint32_t, 3>;

@@ -15,7 +15,7 @@ namespace sessile {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double thinnest = 0.25;  // over the spacing: a further layer of less radius or height would fall together
 
 /// What every sampler is told.

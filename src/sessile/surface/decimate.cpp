@@ -16,7 +16,7 @@ namespace sessile {
 namespace {
 
 using Indices = std::vector<std::uint32_t>;
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 
 /// For each vertex the least vertex of those that it is connected with.
 Indices first_connected(const SurfaceMesh& mesh) {
@@ -96,7 +96,7 @@ class Pieces {
 Indices drop_unused(SurfaceMesh& mesh) {
   std::vector<char> used(mesh.vertex_count(), 0);
   for (const std::uint32_t v : mesh.triangles) used[v] = 1;
-  Indices kept, number(used.size(), none);
+  Indices kept, number(used.size(), no_vertex);
   for (std::uint32_t v = 0; v < used.size(); ++v) {
     if (used[v] == 0) continue;
     number[v] = static_cast<std::uint32_t>(kept.size());

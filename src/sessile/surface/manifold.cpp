@@ -10,11 +10,11 @@
 namespace sessile {
 namespace {
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
+using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// The directed edges of all triangles, sorted.
-std::vector<Edge> directed_edges(const SurfaceMesh& mesh) {
-  std::vector<Edge> edges;
+std::vector<DirectedEdge> directed_edges(const SurfaceMesh& mesh) {
+  std::vector<DirectedEdge> edges;
   edges.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
     for (std::size_t k = 0; k < 3; ++k) edges.emplace_back(mesh.triangles[t + k], mesh.triangles[t + (k + 1) % 3]);
@@ -24,10 +24,10 @@ std::vector<Edge> directed_edges(const SurfaceMesh& mesh) {
 }
 
 /// Edges of which there is not exactly one each way.
-std::size_t count_bad_edges(const std::vector<Edge>& edges) {
+std::size_t count_bad_edges(const std::vector<DirectedEdge>& edges) {
   std::size_t bad = 0;
   for (std::size_t k = 0; k < edges.size(); ++k) {
-    const Edge back{edges[k].second, edges[k].first};
+    const DirectedEdge back{edges[k].second, edges[k].first};
     const auto [first, last] = std::equal_range(edges.begin(), edges.end(), back);
     const bool repeated = k > 0 && edges[k] == edges[k - 1];
     bad += repeated || last - first != 1 || edges[k].first == edges[k].second;
@@ -38,7 +38,7 @@ std::size_t count_bad_edges(const std::vector<Edge>& edges) {
 /// The triangles around each vertex as directed edges opposite to it: those of vertex v from begin[v] to begin[v + 1].
 struct Links {
   std::vector<std::size_t> begin;
-  std::vector<Edge> edges;
+  std::vector<DirectedEdge> edges;
 
   explicit Links(const SurfaceMesh& mesh) : begin(mesh.vertex_count() + 2, 0), edges(mesh.triangles.size()) {
     for (const std::uint32_t v : mesh.triangles) ++begin[v + 2];
@@ -58,7 +58,7 @@ struct Links {
     std::uint32_t at = first->second;
     std::ptrdiff_t steps = 1;
     for (; at != first->first && steps <= last - first; ++steps) {
-      const auto next = std::find_if(first, last, [&](const Edge& e) { return e.first == at; });
+      const auto next = std::find_if(first, last, [&](const DirectedEdge& e) { return e.first == at; });
       if (next == last) return false;
       at = next->second;
     }
