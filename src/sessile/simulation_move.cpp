@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -57,29 +56,33 @@ bool finite(const Vec3<T>& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// What to add to a particle's way so that it is seen from across each periodic face that it leaves by, and from both
-/// sides at edges; first of all nothing. The images of one way show the same passage.
-struct Images {
-  std::array<Vec3d, 8> shift{};
-  std::size_t count = 1;
-};
+// A way over more periods than these in a step is looked at in its last images alone.
+constexpr int most_periods = 16;
 
-Images images(const std::optional<Domain>& box, const Vec3d& to) {
-  Images all;
-  if (!box) return all;
-  const auto leave = [&](Edge edge, double x, double start, double end, double Vec3d::*axis) {
-    if (edge != Edge::periodic || (x >= start && x < end)) return;
-    const double shift = -(end - start) * std::floor((x - start) / (end - start));
-    for (std::size_t k = 0; k < all.count; ++k) {
-      all.shift[all.count + k] = all.shift[k];
-      all.shift[all.count + k].*axis += shift;
-    }
-    all.count *= 2;
+/// Whether `sees(shift)` holds for one of the images of a particle's way: itself, and from across each periodic face
+/// that it crosses, once for every period, in every combination of axes. The images of one way show the same passage.
+template <class Sees>
+bool any_image(const std::optional<Domain>& box, const Vec3d& to, const Sees& sees) {
+  if (!box) return sees(Vec3d{});
+  const auto periods = [](Edge edge, double x, double start, double end) {
+    return edge == Edge::periodic ? std::floor((x - start) / (end - start)) : 0.0;
   };
-  leave(box->x, to.x, box->min.x, box->max.x, &Vec3d::x);
-  leave(box->y, to.y, box->min.y, box->max.y, &Vec3d::y);
-  leave(box->z, to.z, box->min.z, box->max.z, &Vec3d::z);
-  return all;
+  const double nx = periods(box->x, to.x, box->min.x, box->max.x);
+  const double ny = periods(box->y, to.y, box->min.y, box->max.y);
+  const double nz = periods(box->z, to.z, box->min.z, box->max.z);
+  const Vec3d size = box->max - box->min;
+  const auto images = [](double n) { return static_cast<int>(std::min(std::abs(n), double{most_periods})); };
+  const auto shift = [](int image, double n, double length) {
+    return image == 0 ? 0.0 : std::copysign(std::abs(n) - image + 1, -n) * length;
+  };
+  for (int i = 0; i <= images(nx); ++i) {
+    for (int j = 0; j <= images(ny); ++j) {
+      for (int k = 0; k <= images(nz); ++k) {
+        if (sees(Vec3d{shift(i, nx, size.x), shift(j, ny, size.y), shift(k, nz, size.z)})) return true;
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -95,10 +98,8 @@ void Simulation::move(double dt) {
       return;
     }
     Moves own;
-    const Images seen = images(scene_.domain, to);
     const auto crosses = [&](const SolidGeometry& solid) {
-      return std::any_of(seen.shift.begin(), seen.shift.begin() + static_cast<std::ptrdiff_t>(seen.count),
-                         [&](const Vec3d& shift) { return solid.crossed(from + shift, to + shift); });
+      return any_image(scene_.domain, to, [&](const Vec3d& shift) { return solid.crossed(from + shift, to + shift); });
     };
     for (std::size_t s = 0; s < solids_.size(); ++s) {
       if (!crosses(solids_[s])) continue;

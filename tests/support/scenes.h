@@ -1,8 +1,13 @@
 #pragma once
 
+#include <limits>
+
 #include "sessile/simulation.h"
 
 namespace sessile::test {
+
+/// Gravity [m/s^2] that no velocity can hold after a step of a thousand seconds.
+inline constexpr double beyond_all = 0.9 * static_cast<double>(std::numeric_limits<Real>::max());
 
 /// A free block of n^3 particles at the paper's scale, without gravity, at a fixed step.
 inline Scene block(int n, double dt = 2e-3, double end = 1) {

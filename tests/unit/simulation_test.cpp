@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sessile/core/error.h"
 #include "support/cloud.h"
@@ -165,18 +166,21 @@ TEST(Simulation, CountsWhatPassesThroughASolidAcrossPeriodicFaces) {
     EXPECT_EQ(simulation.totals().lost, 1) << vx;
     EXPECT_EQ(simulation.health().escape.count, 1) << vx;
   }
-  // One of the scene's own, which stands just beyond the face.
-  Scene scene = test::block(1, 1e-2);
-  scene.domain = Domain{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, Edge::periodic, Edge::open, Edge::open};
-  scene.bodies[0].placement.position = {0.45, 0, 0};
-  scene.bodies[0].velocity = {25, 0, 0};
-  Solid wall = plate(0.3, 0);
-  wall.placement = {{-0.4, 0, 0}, {0, 1, 0}, 90};
-  scene.solids = {wall};
-  Simulation simulation(scene);
-  simulation.step();
-  EXPECT_EQ(simulation.totals().lost, 1);
-  EXPECT_EQ(simulation.health().passage.count, 1);
+  // One of the scene's own, which stands just beyond the face; one that a way over two periods meets in the second
+  // alone.
+  for (const auto& [at, vx] : {std::pair{-0.4, 25.0}, std::pair{0.0, 230.0}}) {
+    Scene scene = test::block(1, 1e-2);
+    scene.domain = Domain{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, Edge::periodic, Edge::open, Edge::open};
+    scene.bodies[0].placement.position = {0.45, 0, 0};
+    scene.bodies[0].velocity = {vx, 0, 0};
+    Solid wall = plate(0.3, 0);
+    wall.placement = {{at, 0, 0}, {0, 1, 0}, 90};
+    scene.solids = {wall};
+    Simulation simulation(scene);
+    simulation.step();
+    EXPECT_EQ(simulation.totals().lost, 1) << vx;
+    EXPECT_EQ(simulation.health().passage.count, 1) << vx;
+  }
 }
 
 TEST(Simulation, EndsWithASentenceWhenPositionsAreNoLongerFinite) {
