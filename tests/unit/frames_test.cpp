@@ -16,6 +16,7 @@
 
 #include "sessile/core/error.h"
 #include "sessile/output/check.h"
+#include "unit/python.h"
 #include "unit/temporary_folder.h"
 
 namespace sessile {
@@ -240,9 +241,9 @@ TEST(CheckOutput, NamesEveryFault) {
 
 /// Two frames and their collection, opened by VTK itself; skipped on machines without its Python module.
 TEST(Vtp, OpensInVtk) {
-  const std::string python = "/usr/bin/python3";
+  const std::string python = test::python_named_by("SESSILE_VTK_PYTHON", "/usr/bin/python3");
   if (std::system((python + " -c 'import vtkmodules.vtkIOXML' >/dev/null 2>&1").c_str()) != 0) {
-    GTEST_SKIP() << "python3-vtk9 is not installed";
+    GTEST_SKIP() << "VTK for Python is not installed";
   }
   TemporaryFolder folder;
   std::ostringstream expected;

@@ -1,13 +1,5 @@
 #include "unit/surface_samples.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <fstream>
-
-#include "unit/temporary_folder.h"
-
 namespace sessile::test {
 
 SurfaceMesh tetrahedron_with_columns(double time) {
@@ -22,17 +14,6 @@ SurfaceMesh tetrahedron_with_columns(double time) {
   mesh.columns.push_back({"density", "kg/m^3", 1, std::vector<float>{1000, 1001, 999.5F, 1e-20F}});
   mesh.columns.push_back({"normal", "", 3, std::vector<float>(12, 0.5F)});
   return mesh;
-}
-
-std::optional<std::string> python(const std::string& interpreter, const std::string& module,
-                                  const std::string& script) {
-  if (std::system(fmt::format("{} -c 'import {}' >/dev/null 2>&1", interpreter, module).c_str()) != 0) return {};
-  TemporaryFolder folder;
-  std::ofstream(folder / "script.py") << script;
-  const std::string command =
-      fmt::format("{} {} > {}", interpreter, (folder / "script.py").string(), (folder / "out.txt").string());
-  EXPECT_EQ(std::system(command.c_str()), 0) << script;
-  return read_file(folder / "out.txt");
 }
 
 }  // namespace sessile::test

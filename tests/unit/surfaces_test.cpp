@@ -13,6 +13,7 @@
 #include "sessile/core/error.h"
 #include "sessile/output/check.h"
 #include "sessile/scene/mesh_files.h"
+#include "unit/python.h"
 #include "unit/surface_samples.h"
 #include "unit/temporary_folder.h"
 
@@ -21,6 +22,7 @@ namespace {
 
 using test::message_of;
 using test::python;
+using test::python_named_by;
 using test::read_file;
 using test::TemporaryFolder;
 using test::tetrahedron_with_columns;
@@ -96,7 +98,7 @@ TEST(SurfaceVtp, OpensInVtk) {
   TemporaryFolder folder;
   std::ofstream(folder / "s.vtp", std::ios::binary) << encode_surface_vtp(tetrahedron_with_columns());
   std::ofstream(folder / "n.vtp", std::ios::binary) << encode_surface_vtp({});
-  const auto said = python("/usr/bin/python3", "vtkmodules.vtkIOXML",
+  const auto said = python(python_named_by("SESSILE_VTK_PYTHON", "/usr/bin/python3"), "vtkmodules.vtkIOXML",
                            fmt::format(R"(
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 for name in ("s", "n"):
@@ -106,7 +108,7 @@ for name in ("s", "n"):
     if name == "s": print([p.GetCell(3).GetPointId(k) for k in range(3)], p.GetPoint(3), d.GetArray("id").GetValue(3))
 )",
                                        folder.path().string()));
-  if (!said) GTEST_SKIP() << "python3-vtk9 is not installed";
+  if (!said) GTEST_SKIP() << "VTK for Python is not installed";
   const std::string arrays = "[('Normals', 3), ('id', 1), ('velocity', 3), ('density', 1), ('normal', 3)]\n";
   EXPECT_EQ(*said, "4 4 Normals 0.1\n" + arrays +
                        "[0, 3, 2] (0.0, 0.0, 0.3333333432674408) -8\n0 0 Normals 0.0\n[('Normals', 3)]\n");

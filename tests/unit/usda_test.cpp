@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "sessile/core/error.h"
 #include "sessile/scene/mesh_files.h"
+#include "unit/python.h"
 #include "unit/small_disk.h"
 #include "unit/surface_samples.h"
 #include "unit/temporary_folder.h"
@@ -16,6 +16,7 @@ namespace sessile {
 namespace {
 
 using test::python;
+using test::python_named_by;
 using test::read_file;
 using test::TemporaryFolder;
 using test::tetrahedron_with_columns;
@@ -52,8 +53,7 @@ TEST(SurfaceUsda, HoldsEveryFrame) {
 TEST(SurfaceUsda, OpensInUsd) {
   TemporaryFolder folder;
   usda_of(folder / "surface.usda", 3);
-  const char* const interpreter = std::getenv("SESSILE_USD_PYTHON");
-  const auto said = python(interpreter != nullptr ? interpreter : "python3", "pxr",
+  const auto said = python(python_named_by("SESSILE_USD_PYTHON", "python3"), "pxr",
                            fmt::format(R"(
 from pxr import Usd, UsdGeom
 stage = Usd.Stage.Open("{}")
